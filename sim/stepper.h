@@ -1,0 +1,81 @@
+// Time stepping: move every vertex, find what tangled, repair it, and tell what was touched.
+//
+//   kinemesh::Stepper stepper(kinemesh::build_mesh(data));
+//   while (...) {
+//     auto outcome = stepper.step(my_new_positions, dt);     // in the user's order; or stepper.step(motion, dt)
+//     if (!outcome) { report(outcome.defect->message()); break; }
+//     use(stepper.mesh().domain(), outcome.record);
+//   }
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/defect.h"
+#include "core/mesh.h"
+#include "motion/motion.h"
+#include "untangle/strategy.h"
+
+namespace kinemesh {
+
+struct StepperOptions {
+  std::string strategy = "global";  // a name make_strategy knows
+  bool allow_escaped = false;       // see RepairOptions
+};
+
+// What one step did; the columns of steps.csv.
+struct StepRecord {
+  int step = 0;       // its number, from 1
+  double time = 0.0;  // at its end
+  double dt = 0.0;
+  int vertices = 0, faces = 0;  // of the domain
+  RepairRecord repair;          // padding included
+  double min_angle_deg = 0.0;   // of the domain's faces after the step
+  double min_area = 0.0;
+  double move_ms = 0.0, total_ms = 0.0;
+  bool accepted = false;
+};
+
+// A step is a transaction: without a defect the mesh is valid at the new positions; with one, mesh, positions and time
+// are bit for bit what they were.
+struct StepOutcome {
+  StepRecord record;
+  std::optional<Defect> defect;
+
+  explicit operator bool() const { return !defect; }
+};
+
+class Stepper {
+ public:
+  // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy.
+  explicit Stepper(Mesh mesh, const StepperOptions& options = {});
+
+  // To given positions, one per user's vertex in the user's order.
+  [[nodiscard]] StepOutcome step(std::span<const Point> positions, double dt);
+
+  // By a motion from time() to time() + dt; `motion` was built on this stepper's initial mesh.
+  [[nodiscard]] StepOutcome step(const Motion& motion, double dt);
+  [[nodiscard]] StepOutcome step_to(const Motion& motion, double end_time);  // sets time() to end_time exactly
+
+  const Mesh& mesh() const { return mesh_; }
+  double time() const { return time_; }
+  int steps_done() const { return step_; }
+  const Strategy& strategy() const { return *strategy_; }
+
+ private:
+  template <class Move>
+  StepOutcome advance(double end_time, const Move& move);
+
+  Mesh mesh_;
+  std::unique_ptr<Strategy> strategy_;
+  RepairOptions repair_;
+  std::vector<Point> next_;  // positions after the step, then before it
+  double time_ = 0.0;
+  int step_ = 0;
+};
+
+}  // namespace kinemesh

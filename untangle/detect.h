@@ -1,0 +1,28 @@
+// Finds the faces a step has turned over.
+#pragma once
+
+#include <vector>
+
+#include "core/mesh.h"
+
+namespace kinemesh {
+
+struct Tangles {
+  std::vector<int> inverted;  // faces, ascending
+  std::vector<int> flat;      // faces of zero area, ascending
+
+  bool empty() const { return inverted.empty() && flat.empty(); }
+};
+
+// Exact. Padding included. One sweep over the flat mirror in all threads; the result does not depend on their number.
+Tangles detect(const Mesh& mesh);
+
+// Inverted components [Agarwal 2008, §2]: for each face of `tangles.inverted`, in its order, the number of its class
+// under "shares an edge with", numbered by first appearance.
+struct Components {
+  std::vector<int> of;  // parallel to Tangles::inverted
+  int count = 0;
+};
+Components inverted_components(const Mesh& mesh, const std::vector<int>& inverted);
+
+}  // namespace kinemesh

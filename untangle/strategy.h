@@ -1,0 +1,90 @@
+// The ways to make a moved mesh valid again, behind one interface and chosen by name.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/defect.h"
+#include "core/mesh.h"
+
+namespace kinemesh {
+
+// One replaced region. Counts include padding unless said otherwise.
+struct RegionRecord {
+  int seed = none;             // smallest inverted or flat face, user's number; none if all of them are padding
+  std::vector<int> faces;      // R*: the mesh's faces (not the user's numbers), ascending, as they were when it was found;
+                               // their handles now hold the new faces
+  std::vector<int> user_faces; // the domain's faces among them, user's numbers, ascending
+  int inverted = 0;            // inverted faces in it
+  int degenerate = 0;          // flat faces in it
+  int components = 0;          // inverted components
+  int explored = 0;            // faces read as candidates; equals faces.size()
+  int border_edges = 0;
+  int crease_edges = 0;        // edges between an inverted and an upright face
+  int gamma_first_stable = 1;  // signed cover of the region when extending first came to rest [Agarwal 2008, §4]
+  int gamma = 1;               // and at the end
+  int retries = 0;             // enlargements the safety net needed; 0 outside freak cases
+  bool self_overlap = false;   // the region's border overlaps itself in the plane
+  Point centre{0.0, 0.0};      // of the bounding box of its vertices
+
+  int padding_faces() const { return static_cast<int>(faces.size() - user_faces.size()); }
+};
+
+struct RepairRecord {
+  int inverted = 0;    // faces, padding included
+  int degenerate = 0;  // flat faces
+  int components = 0;  // inverted components
+  std::vector<RegionRecord> regions;
+  int replaced = 0;       // faces rewritten
+  int escaped = 0;        // vertices now on the wrong side of their border or interface
+  int doubled_edges = 0;  // pairs of edges with the same ends
+  int quality_flips = 0;
+  double detect_ms = 0.0, explore_ms = 0.0, triangulate_ms = 0.0, splice_ms = 0.0, quality_ms = 0.0;
+
+  int region_faces() const;      // sum over the regions
+  int region_faces_max() const;  // 0 without regions
+  int explored() const;
+  int crease_edges() const;
+  int retries() const;
+};
+
+// Either every face is upright (no defect), or the mesh is bit for bit as it was and the defect says why.
+struct RepairOutcome {
+  RepairRecord record;
+  std::optional<Defect> defect;
+
+  explicit operator bool() const { return !defect; }
+};
+
+struct RepairOptions {
+  bool allow_escaped = false;  // count vertices on the wrong side of their border or interface instead of failing
+};
+
+class Strategy {
+ public:
+  virtual ~Strategy() = default;
+
+  virtual std::string_view name() const = 0;
+
+  // Makes every face upright by changing connectivity only, or changes nothing. Positions are read, never written.
+  // Deterministic, whatever the number of threads. May keep scratch memory between calls; one object per thread.
+  [[nodiscard]] virtual RepairOutcome repair(Mesh& mesh, const RepairOptions& options) = 0;
+};
+
+struct StrategyInfo {
+  std::string name;
+  std::string description;  // one line for `kinemesh list`, its guarantee included
+  std::function<std::unique_ptr<Strategy>()> make;
+};
+
+// Built-in and registered ones. A name registered twice is an InputError, and so is an unknown one.
+std::span<const StrategyInfo> strategies();
+void register_strategy(StrategyInfo info);
+std::unique_ptr<Strategy> make_strategy(std::string_view name);
+
+}  // namespace kinemesh
