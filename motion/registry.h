@@ -1,0 +1,74 @@
+// Fields by name: what scenarios and `kinemesh list` know of them.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types.h"
+#include "motion/field.h"
+#include "motion/parameters.h"
+
+namespace kinemesh {
+
+enum class ParameterKind {
+  Number,             // finite
+  PositiveNumber,     // > 0
+  NonNegativeNumber,  // >= 0
+  Vector,             // [x, y], finite
+  Direction,          // [x, y], not both 0
+  Size,               // [width, height] or one number for both; > 0
+  Seed,               // integer >= 0
+  Text,
+};
+
+struct ParameterInfo {
+  std::string name;
+  ParameterKind kind;
+  std::string meaning;                                     // with its unit
+  std::optional<ParameterValue> otherwise = std::nullopt;  // default; nothing: required
+};
+
+struct FieldInfo {
+  std::string name;
+  std::string description;
+  std::vector<ParameterInfo> parameters;
+};
+
+// "x = 0.5", "[0.5, 0.5]", ...: a value as a scenario writes it.
+std::string to_string(const ParameterValue& value);
+
+// Parameters that have been checked against a FieldInfo: all there, of the right kind and in range.
+class CheckedParameters {
+ public:
+  // Throws ParameterError: a key the field does not have, one it needs and does not get, a wrong type, out of
+  // range.
+  CheckedParameters(const FieldInfo& info, const FieldParameters& given);
+
+  // Pre: the field has that parameter and it is of that kind.
+  double number(std::string_view name) const;
+  Point point(std::string_view name) const;  // Vector, Direction and Size
+  std::uint64_t seed(std::string_view name) const;
+  const std::string& text(std::string_view name) const;
+
+ private:
+  FieldParameters values_;
+};
+
+using FieldFactory = std::function<AnyField(const CheckedParameters&)>;
+
+// All fields, built in first, then in the order they were registered.
+std::vector<FieldInfo> fields();
+
+// Throws ParameterError: key "field" for an unknown name, else as CheckedParameters does and the field's own
+// constructor.
+AnyField make_field(std::string_view name, const FieldParameters& parameters);
+
+// Adds a field of the user's, before the first scenario is read (not synchronised with the two above). Throws
+// InputError if the name is taken.
+void register_field(const FieldInfo& info, const FieldFactory& factory);
+
+}  // namespace kinemesh
