@@ -11,7 +11,8 @@
 namespace kinemesh {
 
 struct BuildOptions {
-  double frame = 0.0;      // margin of the outer padding in bounding-box diagonals; 0: none, the convex hull must not move
+  double frame =
+      0.0;  // margin of the outer padding in bounding-box diagonals; 0: none, the convex hull must not move
   std::vector<int> fixed;  // user's vertices that no motion moves
 };
 
@@ -25,10 +26,10 @@ class NoEmbedding : public InputError {
   Defect defect_;
 };
 
-// Embeds `data` in padding, renumbers along a Hilbert curve, constrains borders, markers and label interfaces.
-// Faces may be tangled; borders may not. Pre: consistent winding, as make_consistent (core/orient.h) leaves it.
-// Throws InputError for wrong indices and non-manifold faces, NoEmbedding where borders or constrained edges cross,
-// touch or are inside out.
+// Embeds `data` in padding, renumbers along a Hilbert curve, constrains borders, markers and label
+// interfaces. Faces may be tangled; borders may not. Pre: consistent winding, as make_consistent
+// (core/orient.h) leaves it. Throws InputError for wrong indices and non-manifold faces, NoEmbedding where
+// borders or constrained edges cross, touch or are inside out.
 Mesh build_mesh(const MeshData& data, const BuildOptions& options = {});
 
 }  // namespace kinemesh

@@ -1,4 +1,5 @@
-// What keeps a mesh from being valid, with the culprits: the one vocabulary of validation, embedding and failed repairs.
+// What keeps a mesh from being valid, with the culprits: the one vocabulary of validation, embedding and
+// failed repairs.
 #pragma once
 
 #include <string>
@@ -29,11 +30,11 @@ enum class DefectKind {
 // All numbers are the user's (order of the input, from 0).
 struct Defect {
   DefectKind kind = DefectKind::Connectivity;
-  std::vector<int> vertices;
-  std::vector<int> faces;
-  std::vector<Edge> edges;
-  Point where{0.0, 0.0};  // a place to look at; rounded
-  std::string detail;     // a clause that only this case can add, may be empty
+  std::vector<int> vertices = {};
+  std::vector<int> faces = {};
+  std::vector<Edge> edges = {};
+  Point where{0.0, 0.0};    // a place to look at; rounded
+  std::string detail = {};  // a clause that only this case can add, may be empty
 
   std::string message() const;  // one sentence that names kind, culprits and place
 };

@@ -1,18 +1,31 @@
-// The rectangle around the domain whose corners are part of the padding, so that the domain's border can move.
+// The convex border of the padded mesh: a rectangular frame that follows the domain, or a hull that stays.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
+#include "core/defect.h"
 #include "core/mesh.h"
 
 namespace kinemesh {
 
-// Corners, counter-clockwise from lower left, at `margin` bounding-box diagonals from the bounding box of `points`.
+// Corners, counter-clockwise from lower left, at `margin` bounding-box diagonals from the bounding box of
+// `points`.
 std::array<Point, 4> frame_around(std::span<const Point> points, double margin);
 
-// The frame follows a drifting domain: where the domain of `mesh` has come closer to it than half its margin, or has
-// shrunk away, writes new corners to `next`. Depends on the mesh's positions alone.
+// The frame follows a drifting domain: where the domain of `mesh` has come closer to it than half its margin,
+// or has left more than twice its margin, new corners are written to `next`; otherwise the old ones. Depends
+// on the mesh's positions alone. Nothing without a frame.
 void follow(const Mesh& mesh, std::span<Point> next);
+
+// Without a frame, the vertices of the convex hull have to stay where they are, or on the straight line
+// between their neighbours of the hull. The first that would not, at the positions `next`; nothing with a
+// frame. Exact.
+std::optional<Defect> hull_defect(const Mesh& mesh, std::span<const Point> next);
+
+// True if p is neither strictly inside the hull of the mesh nor a position of one of its vertices. Exact,
+// O(hull).
+bool is_outside_hull(const Mesh& mesh, const Point& p);
 
 }  // namespace kinemesh

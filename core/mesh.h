@@ -1,9 +1,9 @@
 // The kinetic mesh: connectivity (OpenMesh half-edges) apart from positions, and a flat mirror of the faces.
 //
-// The domain the user gave is embedded in padding: faces that fill its holes and the space up to its convex hull or to
-// a rectangular frame, so that the whole is a disc with convex border [Agarwal 2008, §1, boundary assumption]. Vertices
-// and faces are renumbered along a Hilbert curve; user_vertex, user_face and their inverses translate. Build one with
-// build_mesh (core/build.h).
+// The domain the user gave is embedded in padding: faces that fill its holes and the space up to its convex
+// hull or to a rectangular frame, so that the whole is a disc with convex border [Agarwal 2008, §1, boundary
+// assumption]. Vertices and faces are renumbered along a Hilbert curve; user_vertex, user_face and their
+// inverses translate. Build one with build_mesh (core/build.h).
 #pragma once
 
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
@@ -19,21 +19,23 @@ namespace kinemesh {
 
 // An edge that has to exist again after every repair: border, interface between two labels, marker.
 struct Constraint {
-  int from = none, to = none;   // vertices of the mesh
-  int left = 0, right = 0;      // labels of the faces on either side of from -> to; padding_label outside the domain
-  int marker = none;            // number in marker_names()
+  int from = none, to = none;  // vertices of the mesh
+  int left = 0,
+      right = 0;      // labels of the faces on either side of from -> to; padding_label outside the domain
+  int marker = none;  // number in marker_names(), the first that holds this edge
 
   bool is_border() const { return (left == padding_label) != (right == padding_label); }
 };
 
-// New faces for a region, ready to take the place of the old ones (see Mesh::splice).
+// New faces for some of a mesh's, ready to take their place (Mesh::splice). Sides run from corner k to corner
+// k + 1.
 struct Patch {
-  std::vector<int> faces;              // the mesh's faces to be rewritten, ascending
-  std::vector<Triangle> triangles;     // as many; triangle i is written to faces[i]
-  std::vector<int> labels;             // one per triangle
-  std::vector<Triangle> neighbours;    // across the side corner k -> k+1: number of a triangle, or ~halfedge for
-                                       // a side on the region's border, the half-edge being the one inside the region
-  std::vector<Triangle> constraints;   // of that side: number of a constraint, or none; ignored on the border
+  std::vector<int> faces;           // the faces to rewrite
+  std::vector<Triangle> triangles;  // as many; triangle i is written to faces[i]
+  std::vector<int> labels;          // one per triangle
+  std::vector<Triangle> halfedges;  // along side k of triangle i, the triangle to its left
+  std::vector<int> edges;           // the edges between two of the faces, ascending
+  std::vector<int> constraints;     // what becomes of edges[j]: number of a constraint, or none
 };
 
 class Mesh {
@@ -45,17 +47,22 @@ class Mesh {
   int n_faces() const { return static_cast<int>(triangles_.size()); }
   int n_edges() const { return static_cast<int>(edge_constraint_.size()); }
 
-  // Sizes of what the user gave.
+  // Sizes of what the user gave; faces of the domain become more or fewer only when vertices escape.
   int n_user_vertices() const { return n_user_vertices_; }
-  int n_user_faces() const { return n_user_faces_; }  // changes only when vertices escape (see untangle/strategy.h)
+  int n_user_faces() const { return n_user_faces_; }
 
   // Geometry. Moving vertices is the caller's business; connectivity does not follow by itself.
   std::span<const Point> positions() const { return positions_; }
   std::span<Point> positions() { return positions_; }
+  const Point& position(int vertex) const { return positions_[vertex]; }
   void swap_positions(std::vector<Point>& positions) noexcept { positions_.swap(positions); }
-  std::span<const Triangle> triangles() const { return triangles_; }  // corner 0 is where halfedge_of(face) starts
 
-  // Faces.
+  // Faces. Corner 0 is where halfedge_of(face) starts.
+  std::span<const Triangle> triangles() const { return triangles_; }
+  std::array<Point, 3> corners(int face) const {
+    const auto& t = triangles_[face];
+    return {positions_[t[0]], positions_[t[1]], positions_[t[2]]};
+  }
   int label(int face) const { return labels_[face]; }
   bool is_padding(int face) const { return labels_[face] == padding_label; }
 
@@ -63,44 +70,53 @@ class Mesh {
   static int opposite(int h) { return h ^ 1; }
   static int edge_of(int h) { return h >> 1; }
   int halfedge_of(int face) const { return topology_.halfedge_handle(OpenMesh::FaceHandle(face)).idx(); }
-  int outgoing(int vertex) const { return topology_.halfedge_handle(OpenMesh::VertexHandle(vertex)).idx(); }  // or none
+  int outgoing(int vertex) const {
+    return topology_.halfedge_handle(OpenMesh::VertexHandle(vertex)).idx();
+  }  // or none
   int next(int h) const { return topology_.next_halfedge_handle(OpenMesh::HalfedgeHandle(h)).idx(); }
   int prev(int h) const { return topology_.prev_halfedge_handle(OpenMesh::HalfedgeHandle(h)).idx(); }
-  int face_of(int h) const { return topology_.face_handle(OpenMesh::HalfedgeHandle(h)).idx(); }  // none outside
+  int face_of(int h) const {
+    return topology_.face_handle(OpenMesh::HalfedgeHandle(h)).idx();
+  }  // none outside
   int to(int h) const { return topology_.to_vertex_handle(OpenMesh::HalfedgeHandle(h)).idx(); }
   int from(int h) const { return to(opposite(h)); }
   bool is_isolated(int vertex) const { return outgoing(vertex) == none; }
+  // The half-edges along the sides of a face, from corner 0 on.
+  Triangle sides(int face) const {
+    const int h = halfedge_of(face);
+    return {h, next(h), prev(h)};
+  }
   const Connectivity& connectivity() const { return topology_; }
 
   // Constrained edges. constraint_of(edge) is a number in constraints(), or none.
   std::span<const Constraint> constraints() const { return constraints_; }
   int constraint_of(int edge) const { return edge_constraint_[edge]; }
   bool is_constrained(int vertex) const { return on_constraint_[vertex]; }  // an end of a constrained edge
+  int home_label(int vertex) const {
+    return home_label_[vertex];
+  }  // around a vertex on no constrained edge, when built
+  const std::vector<Marker>& markers() const { return markers_; }  // in the user's numbering
   const std::vector<std::string>& marker_names() const { return marker_names_; }
-  int home_label(int vertex) const { return home_label_[vertex]; }  // label around a vertex on no constrained edge
 
   bool is_fixed(int vertex) const { return fixed_[vertex]; }  // never moved by a motion or by smoothing
 
+  // The convex border of the padded mesh: its vertices, counter-clockwise; collinear ones included.
+  std::span<const int> hull() const { return hull_; }
   // Frame: its 4 corners, counter-clockwise from lower left, or nothing.
   std::span<const int> frame() const { return frame_; }
   double frame_margin() const { return frame_margin_; }  // in bounding-box diagonals of the domain
 
   // The user's numbering. Padding has none: user_vertex(frame corner) and user_face(padding face) are none.
-  int user_vertex(int vertex) const { return vertex < 0 || user_vertex_[vertex] >= n_user_vertices_ ? none : user_vertex_[vertex]; }
-  int user_face(int face) const { return is_padding(face) ? none : user_face_[face]; }
+  int user_vertex(int vertex) const { return user_vertex_[vertex]; }
   int vertex_of_user(int user) const { return vertex_of_user_[user]; }
+  int user_face(int face) const { return is_padding(face) ? none : user_face_[face]; }
+  std::vector<int> faces_in_user_order() const;  // the domain's faces, ascending by user_face
   std::vector<Point> user_positions() const;
-  std::vector<int> faces_in_user_order() const;  // domain faces, ascending by user_face
-  MeshData domain() const;                       // everything the user gave, as it is now
+  MeshData domain() const;  // everything the user gave, as it is now
 
-  // Rewrites patch.faces in place, re-using their handles and those of the edges between them; nothing else changes.
-  // Pre: patch covers the same vertices and has the same border as its faces. Cost: O(patch). Does not throw once the
-  // pre-condition holds and memory for the edges of the region is available.
-  void splice(const Patch& patch);
-
-  // Replaces the whole connectivity by `triangles` (padding included; same number of vertices and faces) and their
-  // labels; constrained edges are found again by their ends. Basic guarantee: builds aside, then swaps.
-  void rebuild(std::span<const Triangle> triangles, std::span<const int> labels);
+  // Rewrites patch.faces in place, re-using their handles and those of the edges between them; nothing else
+  // changes. Pre: the patch covers the same vertices and has the same border as its faces. Cost: O(patch).
+  void splice(const Patch& patch) noexcept;
 
  private:
   friend class MeshBuilder;
@@ -109,16 +125,18 @@ class Mesh {
   std::vector<Point> positions_;
   std::vector<Triangle> triangles_;  // mirror of topology_
   std::vector<int> labels_;          // per face
-  std::vector<int> user_face_;       // per face; padding faces have numbers from n_user_faces on
-  std::vector<int> user_vertex_;     // per vertex; frame corners have numbers from n_user_vertices on
+  std::vector<int> user_face_;  // per face; padding faces have numbers from the number of the user's faces on
+  std::vector<int> user_vertex_;  // per vertex
   std::vector<int> vertex_of_user_;
   std::vector<Constraint> constraints_;
   std::vector<int> edge_constraint_;  // per edge
   std::vector<bool> on_constraint_;   // per vertex
   std::vector<bool> fixed_;           // per vertex
   std::vector<int> home_label_;       // per vertex
+  std::vector<int> hull_;
   std::vector<int> frame_;
   double frame_margin_ = 0.0;
+  std::vector<Marker> markers_;
   std::vector<std::string> marker_names_;
   std::map<int, std::string> label_names_;
   int n_user_vertices_ = 0;

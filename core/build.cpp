@@ -1,0 +1,309 @@
+#include "core/build.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/frame.h"
+#include "core/orient.h"
+#include "core/padding.h"
+#include "core/sides.h"
+#include "core/validate.h"
+
+namespace kinemesh {
+
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+class MeshBuilder {
+ public:
+  MeshBuilder(const MeshData& data, const BuildOptions& options) : data_(data), options_(options) {}
+
+  Mesh build() {
+    check_input();
+    place_vertices();
+    place_faces();
+    embed();
+    connect();
+    constrain();
+    if (auto defect = validate_connectivity(mesh_)) throw NoEmbedding(std::move(*defect));
+    return std::move(mesh_);
+  }
+
+ private:
+  void check_input() const;
+  void place_vertices();
+  void place_faces();
+  void embed();
+  void add_padding(std::span<const Triangle> padding);
+  void connect();
+  void link_border(const std::vector<int>& border);
+  void constrain();
+  void constrain_edge(int edge, int marker);
+  void constrain_markers();
+  int find_edge(int user_a, int user_b) const;
+  int label_beside(int halfedge) const;
+
+  const MeshData& data_;
+  const BuildOptions& options_;
+  Mesh mesh_;
+  std::vector<int> opposite_;  // per side, padding included
+  std::vector<int> halfedge_;  // per side
+};
+
+namespace {
+
+// Counting sort: triangles in the order of their first vertex along the curve; stable.
+std::vector<int> order_by_lowest_vertex(std::span<const Triangle> triangles, int n_vertices) {
+  const auto lowest = [&](int f) { return *std::min_element(triangles[f].begin(), triangles[f].end()); };
+  std::vector<int> start(n_vertices + 1, 0), order(triangles.size());
+  for (int f = 0; f < static_cast<int>(triangles.size()); ++f) ++start[lowest(f) + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  for (int f = 0; f < static_cast<int>(triangles.size()); ++f) order[start[lowest(f)]++] = f;
+  return order;
+}
+
+std::string name_of(const Edge& edge) {
+  return std::to_string(edge[0]) + "-" + std::to_string(edge[1]);
+}
+
+}  // namespace
+
+void MeshBuilder::check_input() const {
+  const int n = data_.n_vertices();
+  if (data_.triangles.empty()) throw InputError("the mesh has no faces");
+  if (!data_.labels.empty() && data_.labels.size() != data_.triangles.size()) {
+    throw InputError("there must be one label per face, or none");
+  }
+  for (int v = 0; v < n; ++v) {
+    if (!std::isfinite(data_.points[v].x) || !std::isfinite(data_.points[v].y)) {
+      throw InputError("vertex " + std::to_string(v) + " has a position that is not finite");
+    }
+  }
+  for (int f = 0; f < data_.n_faces(); ++f) {
+    const auto& [a, b, c] = data_.triangles[f];
+    for (const int v : {a, b, c}) {
+      if (v < 0 || v >= n) throw FaceError(f, "no vertex has number " + std::to_string(v));
+    }
+    if (a == b || b == c || c == a) throw FaceError(f, "two corners are the same vertex");
+    if (data_.label(f) == padding_label) throw FaceError(f, "this label is reserved");
+  }
+  for (const int v : options_.fixed) {
+    if (v < 0 || v >= n) throw InputError("fixed vertex " + std::to_string(v) + " does not exist");
+  }
+  if (!(options_.frame >= 0.0) || !std::isfinite(options_.frame))
+    throw InputError("the frame must be finite, 0 or more");
+}
+
+// The user's vertices and the corners of the frame, along the curve.
+void MeshBuilder::place_vertices() {
+  auto points = data_.points;
+  if (options_.frame > 0.0) {
+    std::vector<Point> used;
+    for (const auto& t : data_.triangles) {
+      for (const int v : t) used.push_back(points[v]);
+    }
+    const auto corners = frame_around(used, options_.frame);
+    points.insert(points.end(), corners.begin(), corners.end());
+  }
+  const auto order = hilbert_order(points);
+  const int n = static_cast<int>(points.size());
+  mesh_.n_user_vertices_ = data_.n_vertices();
+  mesh_.frame_margin_ = options_.frame;
+  mesh_.vertex_of_user_.resize(n);
+  mesh_.positions_.resize(n);
+  mesh_.user_vertex_.resize(n);
+  for (int v = 0; v < n; ++v) {
+    mesh_.positions_[v] = points[order[v]];
+    mesh_.user_vertex_[v] = order[v] < data_.n_vertices() ? order[v] : none;
+    mesh_.vertex_of_user_[order[v]] = v;
+  }
+  mesh_.frame_.assign(mesh_.vertex_of_user_.begin() + data_.n_vertices(), mesh_.vertex_of_user_.end());
+  mesh_.vertex_of_user_.resize(data_.n_vertices());
+  mesh_.fixed_.assign(n, false);
+  for (const int v : options_.fixed) mesh_.fixed_[mesh_.vertex_of_user_[v]] = true;
+}
+
+void MeshBuilder::place_faces() {
+  auto triangles = data_.triangles;
+  for (auto& t : triangles) {
+    for (int& v : t) v = mesh_.vertex_of_user_[v];
+  }
+  mesh_.n_user_faces_ = data_.n_faces();
+  mesh_.user_face_ = order_by_lowest_vertex(triangles, mesh_.n_vertices());
+  for (const int f : mesh_.user_face_) {
+    mesh_.triangles_.push_back(triangles[f]);
+    mesh_.labels_.push_back(data_.label(f));
+  }
+}
+
+void MeshBuilder::embed() {
+  auto pairs = pair_sides(mesh_.triangles_, mesh_.n_vertices());
+  if (pairs.conflict != none) {
+    throw FaceError(mesh_.user_face_[pairs.conflict],
+                    "an edge has more than two faces, or two wound the same way");
+  }
+  opposite_ = std::move(pairs.opposite);
+  std::vector<Edge> border;
+  for (int s = 0; s < static_cast<int>(opposite_.size()); ++s) {
+    if (opposite_[s] == none) border.push_back(ends_of_side(mesh_.triangles_, s));
+  }
+  if (border.empty()) {
+    throw NoEmbedding({.kind = DefectKind::NotPlanar, .detail = "there is no border, the surface is closed"});
+  }
+  add_padding(pad(mesh_.positions_, border, mesh_.frame_, mesh_.user_vertex_));
+}
+
+// Sides of padding meet each other or the border; an interior edge of a tangled domain may have the same ends
+// as an edge of the padding, so the two must not be paired by their ends.
+void MeshBuilder::add_padding(std::span<const Triangle> padding) {
+  const int first_side = static_cast<int>(opposite_.size());
+  auto inner = pair_sides(padding, mesh_.n_vertices());
+  for (int& s : inner.opposite) s = s == none ? none : s + first_side;
+  opposite_.insert(opposite_.end(), inner.opposite.begin(), inner.opposite.end());
+  mesh_.triangles_.insert(mesh_.triangles_.end(), padding.begin(), padding.end());
+  mesh_.labels_.resize(mesh_.triangles_.size(), padding_label);
+  for (int f = mesh_.n_user_faces_; f < mesh_.n_faces(); ++f) mesh_.user_face_.push_back(f);
+
+  std::vector<std::pair<Edge, int>> border;  // of the domain, by ends as the padding sees them
+  for (int s = 0; s < first_side; ++s) {
+    if (opposite_[s] != none) continue;
+    const auto [a, b] = ends_of_side(mesh_.triangles_, s);
+    border.push_back({{b, a}, s});
+  }
+  std::sort(border.begin(), border.end());
+  for (int s = first_side; s < static_cast<int>(opposite_.size()); ++s) {
+    if (opposite_[s] != none) continue;
+    const auto ends = ends_of_side(mesh_.triangles_, s);
+    const auto found = std::lower_bound(border.begin(), border.end(), std::pair(ends, 0));
+    if (found == border.end() || found->first != ends) continue;  // the hull
+    opposite_[s] = found->second;
+    opposite_[found->second] = s;
+  }
+}
+
+void MeshBuilder::connect() {
+  auto& topology = mesh_.topology_;
+  const int n_sides = 3 * mesh_.n_faces();
+  const auto n_hull = std::count(opposite_.begin(), opposite_.end(), none);
+  topology.resize(mesh_.n_vertices(), (n_sides + n_hull) / 2, mesh_.n_faces());
+  halfedge_.assign(n_sides, none);
+  std::vector<int> hull;
+  int n_edges = 0;
+  for (int s = 0; s < n_sides; ++s) {
+    if (halfedge_[s] != none) continue;
+    halfedge_[s] = 2 * n_edges++;
+    if (opposite_[s] != none)
+      halfedge_[opposite_[s]] = halfedge_[s] + 1;
+    else
+      hull.push_back(s);
+  }
+  for (int s = 0; s < n_sides; ++s) {
+    const HalfedgeHandle side(halfedge_[s]);
+    const auto [a, b] = ends_of_side(mesh_.triangles_, s);
+    topology.set_face_handle(side, FaceHandle(s / 3));
+    topology.set_vertex_handle(side, VertexHandle(b));
+    topology.set_next_halfedge_handle(side, HalfedgeHandle(halfedge_[s - s % 3 + (s + 1) % 3]));
+    topology.set_halfedge_handle(VertexHandle(a), side);
+    if (s % 3 == 0) topology.set_halfedge_handle(FaceHandle(s / 3), side);
+  }
+  link_border(hull);
+  mesh_.edge_constraint_.assign(n_edges, none);
+}
+
+// The outer half-edges, one loop around the whole.
+void MeshBuilder::link_border(const std::vector<int>& sides) {
+  auto& topology = mesh_.topology_;
+  std::vector<std::pair<int, int>> leaving;  // vertex, outer half-edge that starts there
+  for (const int s : sides) {
+    const HalfedgeHandle outer(Mesh::opposite(halfedge_[s]));
+    const auto [a, b] = ends_of_side(mesh_.triangles_, s);
+    topology.set_vertex_handle(outer, VertexHandle(a));
+    topology.set_face_handle(outer, FaceHandle());
+    topology.set_halfedge_handle(VertexHandle(b), outer);
+    leaving.emplace_back(b, outer.idx());
+  }
+  std::sort(leaving.begin(), leaving.end());
+  for (const int s : sides) {
+    const int a = ends_of_side(mesh_.triangles_, s)[0];
+    const auto following = std::lower_bound(leaving.begin(), leaving.end(), std::pair(a, 0));
+    topology.set_next_halfedge_handle(HalfedgeHandle(Mesh::opposite(halfedge_[s])),
+                                      HalfedgeHandle(following->second));
+  }
+  const int first = leaving.front().second;
+  int h = first;
+  do {
+    mesh_.hull_.push_back(mesh_.to(h));
+    h = mesh_.next(h);
+  } while (h != first && mesh_.hull_.size() <= sides.size());
+  std::reverse(mesh_.hull_.begin(), mesh_.hull_.end());  // outer half-edges run clockwise
+}
+
+int MeshBuilder::label_beside(int halfedge) const {
+  const int f = mesh_.face_of(halfedge);
+  return f == none ? padding_label : mesh_.labels_[f];
+}
+
+void MeshBuilder::constrain() {
+  mesh_.on_constraint_.assign(mesh_.n_vertices(), false);
+  mesh_.home_label_.assign(mesh_.n_vertices(), 0);
+  for (int f = 0; f < mesh_.n_faces(); ++f) {
+    for (const int v : mesh_.triangles_[f]) mesh_.home_label_[v] = mesh_.labels_[f];
+  }
+  for (int e = 0; e < mesh_.n_edges(); ++e) {
+    if (label_beside(2 * e) != label_beside(2 * e + 1)) constrain_edge(e, none);
+  }
+  constrain_markers();
+  mesh_.label_names_ = data_.label_names;
+}
+
+void MeshBuilder::constrain_edge(int edge, int marker) {
+  if (const int known = mesh_.edge_constraint_[edge]; known != none) {
+    if (mesh_.constraints_[known].marker == none) mesh_.constraints_[known].marker = marker;
+    return;
+  }
+  int h = 2 * edge;
+  if (label_beside(h) == padding_label) h = Mesh::opposite(h);  // the domain to the left
+  mesh_.edge_constraint_[edge] = static_cast<int>(mesh_.constraints_.size());
+  mesh_.constraints_.push_back(
+      {mesh_.from(h), mesh_.to(h), label_beside(h), label_beside(Mesh::opposite(h)), marker});
+  mesh_.on_constraint_[mesh_.from(h)] = true;
+  mesh_.on_constraint_[mesh_.to(h)] = true;
+}
+
+void MeshBuilder::constrain_markers() {
+  mesh_.markers_ = data_.markers;
+  for (int m = 0; m < static_cast<int>(data_.markers.size()); ++m) {
+    const auto& marker = data_.markers[m];
+    mesh_.marker_names_.push_back(marker.name);
+    for (const auto& ends : marker.edges) {
+      const int edge = find_edge(ends[0], ends[1]);
+      if (edge == none)
+        throw InputError("marker " + marker.name + ": " + name_of(ends) + " is not an edge of a face");
+      constrain_edge(edge, m);
+    }
+  }
+}
+
+int MeshBuilder::find_edge(int user_a, int user_b) const {
+  const int n = data_.n_vertices();
+  if (user_a < 0 || user_a >= n || user_b < 0 || user_b >= n) return none;
+  const int a = mesh_.vertex_of_user_[user_a], b = mesh_.vertex_of_user_[user_b];
+  const int first = mesh_.outgoing(a);
+  int h = first;
+  while (h != none) {
+    const bool in_domain = mesh_.constraint_of(Mesh::edge_of(h)) != none ||
+                           (mesh_.face_of(h) != none && !mesh_.is_padding(mesh_.face_of(h)));
+    if (mesh_.to(h) == b && in_domain) return Mesh::edge_of(h);
+    h = mesh_.next(Mesh::opposite(h));
+    if (h == first) break;
+  }
+  return none;
+}
+
+Mesh build_mesh(const MeshData& data, const BuildOptions& options) {
+  return MeshBuilder(data, options).build();
+}
+
+}  // namespace kinemesh

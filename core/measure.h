@@ -1,0 +1,20 @@
+// The numbers people ask a mesh for first.
+#pragma once
+
+#include "core/mesh.h"
+
+namespace kinemesh {
+
+struct Measures {
+  double area = 0.0;           // of the domain: sum of the faces' signed areas
+  double min_area = 0.0;       // smallest signed face area
+  double min_angle_deg = 0.0;  // smallest angle of any face; 0 if one is flat or inverted
+};
+
+// Over the domain's faces; rounded. In all threads; the result does not depend on their number.
+Measures measure(const Mesh& mesh);
+
+// The unit "spacing": sqrt(domain area / user's vertices).
+double mean_spacing(const Mesh& mesh);
+
+}  // namespace kinemesh

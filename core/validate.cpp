@@ -1,0 +1,229 @@
+#include "core/validate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/predicates.h"
+
+namespace kinemesh {
+namespace {
+
+using Found = std::optional<Defect>;
+
+Found broken(std::string detail) {
+  return Defect{.kind = DefectKind::Connectivity, .detail = std::move(detail)};
+}
+
+std::string number(int i) {
+  return std::to_string(i);
+}
+
+Found check_face(const Mesh& mesh, int f) {
+  const auto sides = mesh.sides(f);
+  for (int k = 0; k < 3; ++k) {
+    const int h = sides[k], following = sides[(k + 1) % 3];
+    const bool good = mesh.face_of(h) == f && mesh.next(h) == following && mesh.prev(following) == h &&
+                      mesh.from(h) == mesh.triangles()[f][k] && mesh.to(h) == mesh.from(following);
+    if (!good) return broken("half-edges and mirror differ at face " + number(f));
+  }
+  return std::nullopt;
+}
+
+Found check_faces(const Mesh& mesh) {
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    if (auto defect = check_face(mesh, f)) return defect;
+  }
+  return std::nullopt;
+}
+
+// The half-edges that leave each vertex form one cycle.
+Found check_fans(const Mesh& mesh) {
+  std::vector<int> degree(mesh.n_vertices(), 0);
+  for (int h = 0; h < 2 * mesh.n_edges(); ++h) ++degree[mesh.from(h)];
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    if (mesh.is_isolated(v)) continue;
+    const int first = mesh.outgoing(v);
+    int h = first, seen = 0;
+    do {
+      if (mesh.from(h) != v)
+        return broken("a half-edge has strayed from vertex " + number(mesh.user_vertex(v)));
+      h = mesh.next(Mesh::opposite(h));
+      ++seen;
+    } while (h != first && seen <= degree[v]);
+    if (seen == degree[v]) continue;
+    return Defect{
+        .kind = DefectKind::NotPlanar,
+        .detail = "the faces around vertex " + number(mesh.user_vertex(v)) + " form more than one fan"};
+  }
+  return std::nullopt;
+}
+
+int count_connected_faces(const Mesh& mesh) {
+  std::vector<bool> seen(mesh.n_faces(), false);
+  std::vector<int> pending{0};
+  seen[0] = true;
+  int count = 0;
+  while (!pending.empty()) {
+    const int f = pending.back();
+    pending.pop_back();
+    ++count;
+    for (const int h : mesh.sides(f)) {
+      const int g = mesh.face_of(Mesh::opposite(h));
+      if (g == none || seen[g]) continue;
+      seen[g] = true;
+      pending.push_back(g);
+    }
+  }
+  return count;
+}
+
+// Connected, one border loop, Euler characteristic 1.
+Found check_disc(const Mesh& mesh) {
+  if (count_connected_faces(mesh) != mesh.n_faces()) {
+    return Defect{.kind = DefectKind::NotPlanar, .detail = "the padded mesh is not connected"};
+  }
+  int vertices = 0, outer = 0;
+  for (int v = 0; v < mesh.n_vertices(); ++v) vertices += !mesh.is_isolated(v);
+  for (int h = 0; h < 2 * mesh.n_edges(); ++h) outer += mesh.face_of(h) == none;
+  if (outer != static_cast<int>(mesh.hull().size())) {
+    return Defect{.kind = DefectKind::NotPlanar, .detail = "the padded mesh has more than one border loop"};
+  }
+  const int euler = vertices - mesh.n_edges() + mesh.n_faces();
+  if (euler == 1) return std::nullopt;
+  return Defect{.kind = DefectKind::NotPlanar,
+                .detail = "vertices - edges + faces of the padded mesh is " + number(euler) +
+                          ", not 1: it has handles"};
+}
+
+Found check_numbering(const Mesh& mesh) {
+  for (int u = 0; u < mesh.n_user_vertices(); ++u) {
+    if (mesh.user_vertex(mesh.vertex_of_user(u)) != u)
+      return broken("the numbering has lost vertex " + number(u));
+  }
+  if (static_cast<int>(mesh.faces_in_user_order().size()) != mesh.n_user_faces()) {
+    return broken("the numbering has lost a face");
+  }
+  return std::nullopt;
+}
+
+int label_beside(const Mesh& mesh, int h) {
+  const int f = mesh.face_of(h);
+  return f == none ? padding_label : mesh.label(f);
+}
+
+// Each constraint is one edge with its labels, and no other edge lies between two labels.
+Found check_constraints(const Mesh& mesh) {
+  std::vector<int> edge_of(mesh.constraints().size(), none);
+  for (int e = 0; e < mesh.n_edges(); ++e) {
+    const int c = mesh.constraint_of(e);
+    if (c != none)
+      edge_of[c] = e;
+    else if (label_beside(mesh, 2 * e) != label_beside(mesh, 2 * e + 1)) {
+      return broken("two labels meet at an edge that is not constrained");
+    }
+  }
+  for (std::size_t i = 0; i < edge_of.size(); ++i) {
+    const auto& c = mesh.constraints()[i];
+    const Edge ends{mesh.user_vertex(c.from), mesh.user_vertex(c.to)};
+    const auto missing = [&](const char* why) {
+      return Defect{
+          .kind = DefectKind::MissingEdge, .edges = {ends}, .where = mesh.position(c.from), .detail = why};
+    };
+    if (edge_of[i] == none) return missing("");
+    const int h = mesh.from(2 * edge_of[i]) == c.from ? 2 * edge_of[i] : 2 * edge_of[i] + 1;
+    if (mesh.from(h) != c.from || mesh.to(h) != c.to) return missing("its place is taken");
+    if (label_beside(mesh, h) != c.left || label_beside(mesh, Mesh::opposite(h)) != c.right) {
+      return missing("its labels have changed");
+    }
+  }
+  return std::nullopt;
+}
+
+Found check_finite(const Mesh& mesh) {
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    const Point& p = mesh.position(v);
+    if (std::isfinite(p.x) && std::isfinite(p.y)) continue;
+    return Defect{.kind = DefectKind::NonFinitePosition, .vertices = {mesh.user_vertex(v)}};
+  }
+  return std::nullopt;
+}
+
+Found check_upright(const Mesh& mesh) {
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const auto [a, b, c] = mesh.corners(f);
+    const auto turn = orientation(a, b, c);
+    if (turn == Orientation::CounterClockwise) continue;
+    const auto& t = mesh.triangles()[f];
+    return Defect{.kind = turn == Orientation::Collinear ? DefectKind::FlatFace : DefectKind::InvertedFace,
+                  .vertices = {mesh.user_vertex(t[0]), mesh.user_vertex(t[1]), mesh.user_vertex(t[2])},
+                  .faces = {mesh.user_face(f)},
+                  .where = a};
+  }
+  return std::nullopt;
+}
+
+// Turns left everywhere and goes around once: the sense along x changes twice.
+Found check_hull(const Mesh& mesh) {
+  const auto hull = mesh.hull();
+  const auto at = [&](std::size_t i) { return mesh.position(hull[i % hull.size()]); };
+  int changes = 0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Point a = at(i), b = at(i + 1), c = at(i + 2);
+    const bool folds = orientation(a, b, c) == Orientation::Collinear && !on_segment(b, a, c);
+    if (orientation(a, b, c) == Orientation::Clockwise || folds) {
+      return Defect{.kind = DefectKind::HullMoved,
+                    .vertices = {mesh.user_vertex(hull[(i + 1) % hull.size()])},
+                    .where = b,
+                    .detail = "the border of the padded mesh is not convex"};
+    }
+    const auto upper = [](const Point& p, const Point& q) {
+      return std::pair(p.x, p.y) < std::pair(q.x, q.y);
+    };
+    changes += upper(a, b) != upper(b, c);
+  }
+  if (changes == 2) return std::nullopt;
+  return Defect{.kind = DefectKind::HullMoved,
+                .detail = "the border of the padded mesh goes around more than once"};
+}
+
+double cross(const Point& a, const Point& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+// With every face upright the areas can only add up if nothing overlaps and nothing is missing.
+Found check_coverage(const Mesh& mesh) {
+  const Point origin = mesh.position(mesh.hull()[0]);
+  long double faces = 0, border = 0, size = 0;
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const auto [a, b, c] = mesh.corners(f);
+    if (!mesh.is_padding(f)) faces += 0.5 * cross(b - a, c - a);
+    size += std::abs(cross(a - origin, b - origin));
+  }
+  for (const auto& c : mesh.constraints()) {
+    if (c.is_border()) border += 0.5 * cross(mesh.position(c.from) - origin, mesh.position(c.to) - origin);
+  }
+  if (std::abs(faces - border) <= 1e-12L * size) return std::nullopt;
+  return Defect{.kind = DefectKind::Coverage,
+                .detail = std::to_string(static_cast<double>(faces)) + " against " +
+                          std::to_string(static_cast<double>(border))};
+}
+
+template <class... Checks>
+Found first_of(const Mesh& mesh, Checks... checks) {
+  Found found;
+  static_cast<void>(((found = checks(mesh), found.has_value()) || ...));
+  return found;
+}
+
+}  // namespace
+
+std::optional<Defect> validate_connectivity(const Mesh& mesh) {
+  return first_of(mesh, check_faces, check_fans, check_disc, check_numbering, check_constraints);
+}
+
+std::optional<Defect> validate(const Mesh& mesh) {
+  return first_of(mesh, validate_connectivity, check_finite, check_upright, check_hull, check_coverage);
+}
+
+}  // namespace kinemesh
