@@ -1,13 +1,15 @@
 // Exact signs of a few polynomials in the coordinates: the only geometry that decides topology.
 //
-// Each predicate evaluates in doubles under a static error bound and falls back to exact arithmetic where the bound does
-// not tell the sign; the answer is that of real arithmetic for all finite doubles. Laws, tested:
-//   orientation(a,b,c) == orientation(b,c,a) == -orientation(b,a,c);  in_circle likewise under even/odd permutations.
-// Pre everywhere: finite coordinates.
+// Each predicate evaluates in doubles under a static error bound and falls back to exact arithmetic where the
+// bound does not tell the sign; the answer is that of real arithmetic for all finite doubles. Laws, tested:
+//   orientation(a,b,c) == orientation(b,c,a) == -orientation(b,a,c);  in_circle likewise under even/odd
+//   permutations.
+// Pre everywhere: finite coordinates, rounding to nearest.
 #pragma once
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/types.h"
 
@@ -16,19 +18,41 @@ namespace kinemesh {
 enum class Orientation : signed char { Clockwise = -1, Collinear = 0, CounterClockwise = 1 };
 enum class Side : signed char { Outside = -1, On = 0, Inside = 1 };
 
-constexpr Orientation operator-(Orientation o) { return static_cast<Orientation>(-static_cast<int>(o)); }
+constexpr Orientation operator-(Orientation o) {
+  return static_cast<Orientation>(-static_cast<int>(o));
+}
 
 // Out of line: exact, always right, slow (core/exact.cpp).
 Orientation orientation_exact(const Point& a, const Point& b, const Point& c);
+Side in_circle_exact(const Point& a, const Point& b, const Point& c, const Point& d);
+
+// Error of the determinant below. With u = 2^-53 each difference and product is right within a factor 1 +- u,
+// a product of differences l, r therefore within 3u + O(u^2) of |l|, |r|, and l - r within u of itself; a
+// product that underflows is off by at most 2^-1075 more. So |det - exact| <= u |det| + (3u + O(u^2)) (|l| +
+// |r|) + 2^-1073, and the sign is right once |det| exceeds 4u (|l| + |r|) + 2^-1022 [Shewchuk 1997, §4.3,
+// with room for rounding the bound itself]. Overflow makes the bound infinite or either side NaN: the
+// comparison fails and the exact way is taken.
+inline constexpr double orientation_error = 4.0 * 0x1p-53;
+inline constexpr double underflow_error = std::numeric_limits<double>::min();
 
 // Which way a -> b -> c turns.
-Orientation orientation(const Point& a, const Point& b, const Point& c);
+inline Orientation orientation(const Point& a, const Point& b, const Point& c) {
+  const double l = (a.x - c.x) * (b.y - c.y);
+  const double r = (a.y - c.y) * (b.x - c.x);
+  const double det = l - r;
+  if (std::abs(det) > orientation_error * (std::abs(l) + std::abs(r)) + underflow_error) {
+    return det > 0.0 ? Orientation::CounterClockwise : Orientation::Clockwise;
+  }
+  return orientation_exact(a, b, c);
+}
 
-// Where d lies with respect to the circle through the counter-clockwise triangle a, b, c.
+// Where d lies with respect to the circle through the counter-clockwise triangle a, b, c. Through a clockwise
+// one inside and outside are exchanged; through three points of a line the circle is a half-plane, as the
+// determinant has it.
 Side in_circle(const Point& a, const Point& b, const Point& c, const Point& d);
 
-// Contact of closed sets. `shared` bits tell apart "same vertex" (bit set: the two ends are one mesh vertex and meeting
-// there is no contact) from "same place" (bit clear).
+// Contact of closed sets. `shared` bits tell apart "same vertex" (bit set: the two ends are one mesh vertex
+// and meeting there is no contact) from "same place" (bit clear).
 
 // A segment's end points with the numbers of the mesh vertices that sit there.
 struct Segment {
@@ -36,7 +60,8 @@ struct Segment {
   int va, vb;
 };
 
-// True if the closed segments have a common point other than the position of a vertex they share.
+// True if the closed segments meet anywhere but at a vertex they share. Another end at that vertex's place is
+// a contact (two vertices at one place); an edge does not touch itself (two shared vertices).
 bool segments_touch(const Segment& s, const Segment& t);
 
 // True if the interiors cross in one point that is interior to both.
@@ -53,14 +78,16 @@ struct Corners {
 // p strictly inside the triangle, whatever its orientation; never inside a flat one.
 bool strictly_inside(const Point& p, const std::array<Point, 3>& triangle);
 
-// True if the closed segment has a common point with the closed triangle other than the position of shared vertices. A
-// segment that is a side of the triangle does not touch it in this sense.
+// True if the segment meets the triangle's interior, or touches one of its sides anywhere but at a vertex
+// shared with that side: a shared corner that lies on the opposite side of a flat triangle is a contact. A
+// segment that is a side of the triangle does not touch it in this sense, whatever the triangle's shape.
 bool touches(const Segment& s, const Corners& triangle);
 
 // True if the interiors of the two triangles have a common point. Flat triangles have no interior.
 bool interiors_overlap(const std::array<Point, 3>& s, const std::array<Point, 3>& t);
 
-// True if the closed triangles have a common point other than the positions of shared vertices and the shared edge.
+// True if a side of one, not a side of the other, touches the other as above: for proper triangles, if they
+// have a common point other than shared vertices and the shared edge. A triangle does not touch itself.
 bool touches(const Corners& s, const Corners& t);
 
 }  // namespace kinemesh

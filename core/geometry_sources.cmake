@@ -1,0 +1,3 @@
+set(KINEMESH_GEOMETRY_SOURCES
+  exact.cpp
+  predicates.cpp)
