@@ -1,0 +1,159 @@
+#include "sim/cli/check_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "core/build.h"
+#include "core/predicates.h"
+#include "core/sides.h"
+#include "core/validate.h"
+#include "sim/cli/adjacency.h"
+
+namespace kinemesh::cli {
+namespace {
+
+std::vector<Orientation> orientations(const MeshData& data) {
+  std::vector<Orientation> result;
+  result.reserve(data.triangles.size());
+  for (const Triangle& t : data.triangles)
+    result.push_back(orientation(data.points[t[0]], data.points[t[1]], data.points[t[2]]));
+  return result;
+}
+
+double cross(const Point& u, const Point& v) {
+  return u.x * v.y - u.y * v.x;
+}
+
+double signed_area(const MeshData& data, const Triangle& t) {
+  return 0.5 * cross(data.points[t[1]] - data.points[t[0]], data.points[t[2]] - data.points[t[0]]);
+}
+
+double smallest_angle_deg(const MeshData& data, const Triangle& t) {
+  double smallest = std::numbers::pi;
+  for (int k = 0; k < 3; ++k) {
+    const Point u = data.points[t[(k + 1) % 3]] - data.points[t[k]];
+    const Point v = data.points[t[(k + 2) % 3]] - data.points[t[k]];
+    smallest = std::min(smallest, std::atan2(std::abs(cross(u, v)), glm::dot(u, v)));
+  }
+  return smallest * 180.0 / std::numbers::pi;
+}
+
+void measure(const MeshData& data, const std::vector<Orientation>& signs, CheckReport& report) {
+  if (data.triangles.empty()) return;
+  report.min_angle_deg = 180.0;
+  report.min_area = std::numeric_limits<double>::infinity();
+  for (int face = 0; face < data.n_faces(); ++face) {
+    const Triangle& t = data.triangles[face];
+    const bool is_flat = signs[face] == Orientation::Collinear;
+    report.min_angle_deg = std::min(report.min_angle_deg, is_flat ? 0.0 : smallest_angle_deg(data, t));
+    report.min_area = std::min(report.min_area, is_flat ? 0.0 : signed_area(data, t));
+  }
+}
+
+int count_isolated(const MeshData& data) {
+  std::vector<bool> used(data.points.size(), false);
+  for (const Triangle& t : data.triangles)
+    for (int v : t) used[v] = true;
+  return static_cast<int>(std::count(used.begin(), used.end(), false));
+}
+
+void count(const MeshData& data, const std::vector<Orientation>& signs, CheckReport& report) {
+  const std::vector<int> opposite = pair_sides(data.triangles, data.n_vertices()).opposite;
+  std::vector<bool> is_inverted;
+  for (Orientation sign : signs) is_inverted.push_back(sign == Orientation::Clockwise);
+  report.vertices = data.n_vertices();
+  report.isolated_vertices = count_isolated(data);
+  report.faces = data.n_faces();
+  report.inverted = static_cast<int>(std::count(signs.begin(), signs.end(), Orientation::Clockwise));
+  report.degenerate = static_cast<int>(std::count(signs.begin(), signs.end(), Orientation::Collinear));
+  report.inverted_components = count_parts(opposite, is_inverted);
+  report.connected_parts = count_parts(opposite, std::vector<bool>(signs.size(), true));
+  report.border_loops = count_border_loops(opposite);
+  for (const Marker& marker : data.markers)
+    report.markers.push_back({marker.name, static_cast<int>(marker.edges.size())});
+}
+
+Defect bad_face(const MeshData& data, int face, DefectKind kind) {
+  const Triangle& t = data.triangles[face];
+  Defect defect;
+  defect.kind = kind;
+  defect.faces = {face};
+  defect.vertices = {t[0], t[1], t[2]};
+  defect.where = (data.points[t[0]] + data.points[t[1]] + data.points[t[2]]) / 3.0;
+  return defect;
+}
+
+void name_bad_faces(const MeshData& data, const std::vector<Orientation>& signs, Orientation sign,
+                    DefectKind kind, std::vector<Defect>& culprits) {
+  int named = 0;
+  for (int face = 0; face < data.n_faces() && named < culprits_per_kind; ++face) {
+    if (signs[face] != sign) continue;
+    culprits.push_back(bad_face(data, face, kind));
+    ++named;
+  }
+}
+
+Defect missing_edge(const MeshData& data, const Marker& marker, const Edge& edge) {
+  Defect defect;
+  defect.kind = DefectKind::MissingEdge;
+  defect.edges = {edge};
+  defect.where = (data.points[edge[0]] + data.points[edge[1]]) / 2.0;
+  defect.detail = "marker \"" + marker.name + "\" names it, but no face has it";
+  return defect;
+}
+
+// Returns whether there are any.
+bool name_missing_edges(const MeshData& data, std::vector<Defect>& culprits) {
+  int named = 0;
+  for (const Marker& marker : data.markers) {
+    for (int i : missing_edges(data.triangles, marker.edges)) {
+      if (++named <= culprits_per_kind) culprits.push_back(missing_edge(data, marker, marker.edges[i]));
+    }
+  }
+  return named > 0;
+}
+
+// Whether the borders can be embedded at all, and whether the faces then cover what is inside them once.
+std::optional<Defect> defect_of_embedding(const MeshData& data) {
+  try {
+    return validate(build_mesh(data));
+  } catch (const NoEmbedding& error) {
+    return error.defect();
+  }
+}
+
+bool is_named(const Defect& defect, const std::vector<Defect>& culprits) {
+  return std::any_of(culprits.begin(), culprits.end(),
+                     [&](const Defect& d) { return d.kind == defect.kind; });
+}
+
+}  // namespace
+
+FaceCount count_bad_faces(const MeshData& data) {
+  FaceCount result;
+  for (Orientation sign : orientations(data)) {
+    result.inverted += sign == Orientation::Clockwise;
+    result.degenerate += sign == Orientation::Collinear;
+  }
+  return result;
+}
+
+CheckReport check(const MeshData& data) {
+  CheckReport report;
+  const std::vector<Orientation> signs = orientations(data);
+  count(data, signs, report);
+  measure(data, signs, report);
+  name_bad_faces(data, signs, Orientation::Clockwise, DefectKind::InvertedFace, report.culprits);
+  name_bad_faces(data, signs, Orientation::Collinear, DefectKind::FlatFace, report.culprits);
+  MeshData embedded = data;
+  if (name_missing_edges(data, report.culprits)) embedded.markers.clear();  // build_mesh refuses such
+  const std::optional<Defect> defect = defect_of_embedding(embedded);
+  if (defect && !is_named(*defect, report.culprits)) report.culprits.push_back(*defect);
+  report.valid = report.culprits.empty();
+  return report;
+}
+
+}  // namespace kinemesh::cli

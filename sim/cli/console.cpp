@@ -1,0 +1,43 @@
+#include "sim/cli/console.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
+namespace kinemesh::cli {
+namespace {
+
+std::string on_one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+}  // namespace
+
+void print_error(const std::string& message) {
+  fmt::print(stderr, "kinemesh: {}\n", on_one_line(message));
+}
+
+void print_note(const std::string& message) {
+  print_error("note: " + message);
+}
+
+bool has_live_line() {
+  const char* terminal = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && !(terminal != nullptr && std::string_view(terminal) == "dumb");
+}
+
+bool has_colour() {
+  return has_live_line() && !is_set("NO_COLOR");
+}
+
+}  // namespace kinemesh::cli

@@ -1,0 +1,19 @@
+// Lines on stderr, in the one form that users and scripts can rely on.
+#pragma once
+
+#include <string>
+
+namespace kinemesh::cli {
+
+// "kinemesh: MESSAGE"; line breaks within become spaces, so that it stays one line.
+void print_error(const std::string& message);
+
+// "kinemesh: note: MESSAGE".
+void print_note(const std::string& message);
+
+// Whether stderr is a terminal that can rewrite its last line, and one that wants colours
+// (https://no-color.org).
+bool has_live_line();
+bool has_colour();
+
+}  // namespace kinemesh::cli

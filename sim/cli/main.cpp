@@ -1,0 +1,76 @@
+// kinemesh: the command-line program. Contract of its exit codes and messages: docs/command_line.md.
+#include <fmt/core.h>
+
+#include <OpenMesh/Core/System/omstream.hh>
+#include <exception>
+#include <new>
+
+#include "core/error.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/console.h"
+
+namespace kinemesh::cli {
+namespace {
+
+void silence_openmesh() {
+  omlog().disable();
+  omout().disable();
+  omerr().disable();
+}
+
+// CLI11 has an exit code for every kind of mistake; ours is one.
+int answer_to(const CLI::App& program, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(error);
+  const auto chosen = program.get_subcommands();
+  const std::string command = chosen.empty() ? "" : chosen.front()->get_name();
+  print_error(fmt::format("{}{}{}; see kinemesh {}--help", command, command.empty() ? "" : ": ", error.what(),
+                          command.empty() ? "" : command + " "));
+  return bad_input;
+}
+
+// Output that did not arrive (a full disk behind a redirection) must not look like success.
+int after_flush(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  print_error("cannot write to standard output");
+  return code == done ? not_valid : code;
+}
+
+int perform(const Action& action) try { return after_flush(action()); } catch (const InputError& error) {
+  print_error(error.what());
+  return bad_input;
+} catch (const std::bad_alloc&) {
+  print_error("out of memory");
+  return not_valid;
+} catch (const std::exception& error) {
+  print_error(fmt::format("internal error: {}", error.what()));
+  return not_valid;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App program("Moves the vertices of planar triangle meshes and untangles them locally.", "kinemesh");
+  Action action;
+  program.set_version_flag("--version", "kinemesh " KINEMESH_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Exit codes: 0 done; 1 the mesh is not valid, or no valid mesh exists, or the run had to stop;\n"
+      "2 bad input or usage.");
+  add_run(program, action);
+  add_check(program, action);
+  add_untangle(program, action);
+  add_convert(program, action);
+  add_list(program, action);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return after_flush(answer_to(program, error));
+  }
+  return perform(action);
+}
+
+}  // namespace
+}  // namespace kinemesh::cli
+
+int main(int argc, char** argv) {
+  kinemesh::cli::silence_openmesh();
+  return kinemesh::cli::run_program(argc, argv);
+}

@@ -1,0 +1,123 @@
+#include "untangle/strategy.h"
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/io/atomic_file.h"
+#include "sim/cli/check_report.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/console.h"
+#include "sim/cli/mesh_arguments.h"
+
+namespace kinemesh::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct UntangleArguments {
+  MeshInput mesh;
+  std::string output;
+  std::string strategy = "global";
+  std::string report;
+};
+
+// What a report compares: the file as it was read and as it was written.
+struct BeforeAndAfter {
+  FaceCount before, after;
+};
+
+Json to_json(const RegionRecord& region) {
+  return {{"seed", region.seed},
+          {"faces", region.user_faces},
+          {"padding_faces", region.padding_faces()},
+          {"inverted", region.inverted},
+          {"components", region.components},
+          {"gamma_first_stable", region.gamma_first_stable},
+          {"gamma", region.gamma},
+          {"explored", region.explored},
+          {"crease_edges", region.crease_edges},
+          {"retries", region.retries},
+          {"self_overlap", region.self_overlap}};
+}
+
+Json to_json(const UntangleArguments& arguments, const Mesh& mesh, const RepairRecord& record,
+             const BeforeAndAfter& faces) {
+  Json regions = Json::array();
+  for (const RegionRecord& region : record.regions) regions.push_back(to_json(region));
+  return {{"schema", "kinemesh-untangle-1"},
+          {"strategy", arguments.strategy},
+          {"vertices", mesh.n_user_vertices()},
+          {"faces", mesh.n_user_faces()},
+          {"inverted_before", faces.before.inverted},
+          {"degenerate_before", faces.before.degenerate},
+          {"inverted_after", faces.after.inverted},
+          {"doubled_edges", record.doubled_edges},
+          {"regions", regions}};
+}
+
+void print_summary(const UntangleArguments& arguments, const Mesh& mesh, const RepairRecord& record,
+                   const BeforeAndAfter& faces) {
+  std::size_t touched = 0;
+  for (const RegionRecord& region : record.regions) touched += region.user_faces.size();
+  fmt::print("{} inverted and {} flat faces before, {} and {} after\n", faces.before.inverted,
+             faces.before.degenerate, faces.after.inverted, faces.after.degenerate);
+  fmt::print("{} of {} faces replaced, in {} region{}\n", touched, mesh.n_user_faces(), record.regions.size(),
+             record.regions.size() == 1 ? "" : "s");
+  fmt::print("written: {}\n", arguments.output);
+}
+
+int no_valid_mesh(const UntangleArguments& arguments, const Defect& defect) {
+  print_error(fmt::format("{}: no valid mesh exists: {}; nothing was written", arguments.mesh.path,
+                          defect.message()));
+  return not_valid;
+}
+
+int untangle(const UntangleArguments& arguments) try {
+  require_writable(arguments.output);
+  const std::unique_ptr<Strategy> strategy = make_strategy(arguments.strategy);
+  const MeshData data = read(arguments.mesh);
+  Mesh mesh = build(arguments.mesh, data);
+  const RepairOutcome outcome = strategy->repair(mesh, {});
+  if (!outcome) return no_valid_mesh(arguments, *outcome.defect);
+
+  const MeshData repaired = mesh.domain();
+  const BeforeAndAfter faces{count_bad_faces(data), count_bad_faces(repaired)};
+  write(arguments.output, repaired);
+  if (!arguments.report.empty()) {
+    const Json report = to_json(arguments, mesh, outcome.record, faces);
+    write_file_atomically(arguments.report, report.dump(1) + "\n");
+  }
+  print_summary(arguments, mesh, outcome.record, faces);
+  return faces.after.inverted + faces.after.degenerate == 0 ? done : not_valid;
+} catch (const NoEmbedding& error) {
+  return no_valid_mesh(arguments, error.defect());
+}
+
+}  // namespace
+
+void add_untangle(CLI::App& program, Action& action) {
+  const auto arguments = std::make_shared<UntangleArguments>();
+  CLI::App& command = *program.add_subcommand("untangle", "Make the faces of a tangled mesh upright again");
+  add_mesh_input(command, arguments->mesh);
+  command.add_option("-o,--output", arguments->output, "File to write, unless no valid mesh exists")
+      ->required();
+  command.add_option("--strategy", arguments->strategy, "How; `kinemesh list` names the strategies")
+      ->capture_default_str();
+  command.add_option("--report", arguments->report, "File for what was done, as JSON");
+  command.footer(
+      "No vertex moves, none is added or lost, and all keep their order. Faces outside the replaced regions\n"
+      "keep their line in the file; new faces take the lines of those they replace.\n"
+      "Report: {\"schema\": \"kinemesh-untangle-1\", \"strategy\", \"vertices\", \"faces\", "
+      "\"inverted_before\",\n"
+      "\"degenerate_before\", \"inverted_after\", \"doubled_edges\", \"regions\": [{\"seed\", \"faces\",\n"
+      "\"padding_faces\", \"inverted\", \"components\", \"gamma_first_stable\", \"gamma\", \"explored\",\n"
+      "\"crease_edges\", \"retries\", \"self_overlap\"}]}. A region's faces are those of the file that it "
+      "replaced,\n"
+      "sorted; its seed is the smallest of them that was inverted or flat, or -1 if that is padding.\n"
+      "`remesh` has one region with all faces.");
+  command.callback([arguments, &action] { action = [arguments] { return untangle(*arguments); }; });
+}
+
+}  // namespace kinemesh::cli
