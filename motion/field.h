@@ -39,7 +39,7 @@ class NoiseField {
   virtual std::string_view name() const = 0;
 
   // vertex: the user's number; step: number of the step, from 0; dt: its length; spacing: mean_spacing of the
-  // initial mesh (motion/motion.h).
+  // initial mesh (core/measure.h).
   virtual Point kick(std::uint64_t vertex, std::uint64_t step, double dt, double spacing) const = 0;
 };
 

@@ -1,6 +1,7 @@
 // The motion of a mesh: fields, where they act, what the border does, and how it is integrated in time.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,9 +19,6 @@ struct MotionTerm {
   AnyField field;
   Restriction where;
 };
-
-// The unit of noise: sqrt(domain area / user's vertices).
-double mean_spacing(const Mesh& mesh);
 
 class Motion {
  public:
@@ -54,12 +52,16 @@ class Motion {
     double weight(int vertex) const { return weights.empty() ? 1.0 : weights[vertex]; }
   };
 
-  void add(const Mesh& mesh, const MotionTerm& term);
+  template <class Field>
+  static bool acts(const std::vector<Weighted<Field>>& terms, int vertex) {
+    return std::any_of(terms.begin(), terms.end(),
+                       [&](const auto& term) { return term.weight(vertex) != 0.0; });
+  }
   Point velocity(int vertex, const Point& x, double t) const;
   Point displacement(int vertex, double t, double dt) const;
   Point noise(int vertex, std::uint64_t step, double dt) const;
   Point smooth_way(int vertex, const Point& x0, double t, double dt) const;
-  void add_noise(std::span<const Point> x0, double dt, std::uint64_t step, std::span<Point> x1) const;
+  double fill_noise(double dt, std::uint64_t step, std::span<Point> noises) const;  // returns the longest
 
   std::vector<Weighted<VelocityField>> velocities_;
   std::vector<Weighted<DisplacementField>> displacements_;
@@ -68,6 +70,7 @@ class Motion {
   Integrator integrator_;
   std::vector<Point> initial_;
   std::vector<int> user_vertex_;
+  std::vector<char> constrained_vertex_;
   std::vector<Edge> constrained_;  // ends never change, whatever is repaired
   double spacing_;
 };

@@ -9,7 +9,7 @@ namespace kinemesh {
 using PhiloxCounter = std::array<std::uint32_t, 4>;
 using PhiloxKey = std::array<std::uint32_t, 2>;
 
-// Philox4x32-10 [Salmon 2011, §4.3]: ten rounds of two 32 x 32 -> 64 bit products, the key raised by Weyl
+// Philox4x32-10 [Salmon 2011]: ten rounds of two 32 x 32 -> 64 bit products, the key raised by Weyl
 // constants. Agrees with the authors' known answers (tests/motion/test_noise.cpp).
 constexpr PhiloxCounter philox(PhiloxCounter c, PhiloxKey k) {
   for (int round = 0; round < 10; ++round) {

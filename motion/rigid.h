@@ -18,7 +18,7 @@ class Rotation : public VelocityField {
 };
 
 // Zalesak's rotation: u = (2 pi / period) (1/2 - y), v = (2 pi / period) (x - 1/2), one turn of the unit
-// square about its centre per period; period 628 on his grid of 100 x 100 [Zalesak 1979, §V].
+// square about its centre per period; period 628 on his grid of 100 x 100 [Zalesak 1979].
 class ZalesakRotation final : public Rotation {
  public:
   explicit ZalesakRotation(double period);  // > 0

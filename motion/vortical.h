@@ -41,7 +41,7 @@ class TaylorGreen final : public VelocityField {
 };
 
 // Gresho's vortex, counter-clockwise about the centre: speed 5r for r <= 0.2, 2 - 5r for r <= 0.4, 0 beyond
-// [Gresho 1990, §3]. Free of divergence, steady, with kinks in the speed.
+// [Gresho 1990]. Free of divergence, steady, with kinks in the speed.
 class Gresho final : public VelocityField {
  public:
   explicit Gresho(const Box& box) : box_(box) {}

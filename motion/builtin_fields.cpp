@@ -1,0 +1,152 @@
+#include "motion/builtin_fields.h"
+
+#include <numbers>
+
+#include "motion/body.h"
+#include "motion/expression.h"
+#include "motion/noise.h"
+#include "motion/rigid.h"
+#include "motion/vortical.h"
+
+namespace kinemesh {
+namespace {
+
+using Kind = ParameterKind;
+using Parameters = CheckedParameters;
+
+const std::vector<double> unit_center{0.5, 0.5}, unit_size{1.0, 1.0}, origin{0.0, 0.0};
+
+ParameterInfo center_of(const char* what) {
+  return {"center", Kind::Vector, what};
+}
+ParameterInfo rate_of(const char* what) {
+  return {"rate", Kind::Number, what};
+}
+ParameterInfo box_center() {
+  return {"center", Kind::Vector, "centre of the box", unit_center};
+}
+ParameterInfo box_size() {
+  return {"size", Kind::Size, "width and height of the box, length", unit_size};
+}
+ParameterInfo omega() {
+  return {"omega", Kind::Number, "angular frequency, radians per time"};
+}
+ParameterInfo seed() {
+  return {"seed", Kind::Seed, "of the random numbers", std::int64_t{1}};
+}
+
+Box box(const Parameters& p) {
+  return {p.point("center"), p.point("size")};
+}
+double radians(double degrees) {
+  return degrees * (std::numbers::pi / 180.0);
+}
+
+std::vector<RegisteredField> rigid_fields() {
+  return {
+      {{"rotation",
+        "rigid rotation, counter-clockwise",
+        {center_of("centre of the rotation"), rate_of("radians per time")}},
+       [](const Parameters& p) { return std::make_shared<Rotation>(p.point("center"), p.number("rate")); }},
+      {{"zalesak",
+        "Zalesak's rotation about (0.5, 0.5)",
+        {{"period", Kind::PositiveNumber, "time of one turn", 628.0}}},
+       [](const Parameters& p) { return std::make_shared<ZalesakRotation>(p.number("period")); }},
+      {{"translate", "the same velocity everywhere", {{"velocity", Kind::Vector, "length per time"}}},
+       [](const Parameters& p) { return std::make_shared<Translation>(p.point("velocity")); }},
+      {{"shear",
+        "u = rate (y - center y)",
+        {rate_of("1 per time"), {"center", Kind::Vector, "a point that stays", origin}}},
+       [](const Parameters& p) { return std::make_shared<Shear>(p.point("center"), p.number("rate")); }},
+      {{"rotor",
+        "rigid disc turning in a still mesh",
+        {center_of("centre of the disc"),
+         {"radius", Kind::PositiveNumber, "of the disc, length"},
+         rate_of("radians per time")}},
+       [](const Parameters& p) {
+         return std::make_shared<Rotor>(p.point("center"), p.number("radius"), p.number("rate"));
+       }},
+  };
+}
+
+std::vector<RegisteredField> vortical_fields() {
+  return {
+      {{"swirl",
+        "LeVeque's swirl, back at t = period",
+        {{"period", Kind::PositiveNumber, "time", 8.0}, box_center(), box_size()}},
+       [](const Parameters& p) { return std::make_shared<Swirl>(box(p), p.number("period")); }},
+      {{"taylor-green", "Taylor-Green vortex, steady", {box_center(), box_size()}},
+       [](const Parameters& p) { return std::make_shared<TaylorGreen>(box(p)); }},
+      {{"gresho", "Gresho's vortex, steady", {box_center(), box_size()}},
+       [](const Parameters& p) { return std::make_shared<Gresho>(box(p)); }},
+      {{"twist",
+        "twisting rotation inside a still border, back at t = period",
+        {{"rate", Kind::Number, "at the centre and t = 0, radians per time", 1.0},
+         {"period", Kind::PositiveNumber, "time", 8.0},
+         box_center(),
+         box_size()}},
+       [](const Parameters& p) {
+         return std::make_shared<Twist>(box(p), p.number("rate"), p.number("period"));
+       }},
+  };
+}
+
+std::vector<RegisteredField> body_fields() {
+  return {
+      {{"pitch",
+        "turns by amplitude sin(omega t), counter-clockwise",
+        {center_of("centre of the rotation"), {"amplitude_deg", Kind::Number, "degrees"}, omega()}},
+       [](const Parameters& p) {
+         return std::make_shared<Pitch>(p.point("center"), radians(p.number("amplitude_deg")),
+                                        p.number("omega"));
+       }},
+      {{"plunge",
+        "moves by amplitude sin(omega t)",
+        {{"direction", Kind::Direction, "where to, of any length"},
+         {"amplitude", Kind::Number, "length"},
+         omega()}},
+       [](const Parameters& p) {
+         return std::make_shared<Plunge>(p.point("direction"), p.number("amplitude"), p.number("omega"));
+       }},
+  };
+}
+
+std::vector<RegisteredField> noise_fields() {
+  return {
+      {{"jitter",
+        "uniform in a square each step, whatever its length",
+        {{"amplitude", Kind::NonNegativeNumber, "half the square's side, in spacings"}, seed()}},
+       [](const Parameters& p) { return std::make_shared<Jitter>(p.number("amplitude"), p.seed("seed")); }},
+      {{"brownian",
+        "Gaussian, standard deviation sqrt(2 diffusion dt)",
+        {{"diffusion", Kind::NonNegativeNumber, "length^2 per time"}, seed()}},
+       [](const Parameters& p) { return std::make_shared<Brownian>(p.number("diffusion"), p.seed("seed")); }},
+  };
+}
+
+std::vector<RegisteredField> formula_fields() {
+  return {
+      {{"expression",
+        "velocity by formulas in x, y and t",
+        {{"u", Kind::Text, "length per time"}, {"v", Kind::Text, "length per time"}}},
+       [](const Parameters& p) { return std::make_shared<ExpressionVelocity>(p.text("u"), p.text("v")); }},
+      {{"displacement",
+        "displacement by formulas in t and the initial x and y",
+        {{"dx", Kind::Text, "length"}, {"dy", Kind::Text, "length"}}},
+       [](const Parameters& p) {
+         return std::make_shared<ExpressionDisplacement>(p.text("dx"), p.text("dy"));
+       }},
+  };
+}
+
+}  // namespace
+
+std::vector<RegisteredField> builtin_fields() {
+  std::vector<RegisteredField> all;
+  for (const auto& group :
+       {rigid_fields(), vortical_fields(), body_fields(), noise_fields(), formula_fields()})
+    all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+}  // namespace kinemesh

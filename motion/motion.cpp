@@ -1,0 +1,175 @@
+#include "motion/motion.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/measure.h"
+#include "motion/noise_cut.h"
+
+namespace kinemesh {
+namespace {
+
+using Range = tbb::blocked_range<int>;
+
+template <class Points>
+Range vertices(const Points& x) {
+  return {0, static_cast<int>(x.size()), 4096};
+}
+
+bool is_finite(const Point& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+// Adding 0 would turn -0 into +0.
+double moved(double x, double way) {
+  return way == 0.0 ? x : x + way;
+}
+Point moved(const Point& x, const Point& way) {
+  return {moved(x.x, way.x), moved(x.y, way.y)};
+}
+
+std::string shortest(double number) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+std::string shortest(const Point& p) {
+  return '(' + shortest(p.x) + ", " + shortest(p.y) + ')';
+}
+
+// A marker that a term names is moving unless `border` says otherwise.
+BorderConditions completed(const Mesh& mesh, BorderConditions border, const std::vector<MotionTerm>& terms) {
+  const auto& names = mesh.marker_names();
+  for (const auto& term : terms)
+    if (const auto* on = std::get_if<OnMarker>(&term.where.on))
+      if (std::find(names.begin(), names.end(), on->name) != names.end())  // or weights() refuses it
+        border.by_marker.emplace(on->name, BorderCondition::Moving);
+  return border;
+}
+
+std::vector<double> weights_of_term(const Mesh& mesh, const std::vector<MotionTerm>& terms, std::size_t i) {
+  try {
+    return weights(mesh, terms[i].where);
+  } catch (const ParameterError& error) {
+    throw ParameterError("motion." + std::to_string(i) + '.' + error.key(), error.what());
+  }
+}
+
+}  // namespace
+
+Motion::Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions border,
+               Integrator integrator)
+    : freedom_(mesh, completed(mesh, std::move(border), terms)),
+      integrator_(integrator),
+      initial_(mesh.positions().begin(), mesh.positions().end()),
+      user_vertex_(mesh.n_vertices()),
+      constrained_vertex_(mesh.n_vertices()),
+      spacing_(mean_spacing(mesh)) {
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const auto add = [&](auto& all, const auto& field) {
+      all.push_back({field, weights_of_term(mesh, terms, i)});
+    };
+    if (const auto* v = std::get_if<0>(&terms[i].field)) add(velocities_, *v);
+    if (const auto* d = std::get_if<1>(&terms[i].field)) add(displacements_, *d);
+    if (const auto* n = std::get_if<2>(&terms[i].field)) add(noises_, *n);
+  }
+  for (const Constraint& c : mesh.constraints()) constrained_.push_back({c.from, c.to});
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    user_vertex_[v] = mesh.user_vertex(v);
+    constrained_vertex_[v] = mesh.is_constrained(v);
+  }
+}
+
+void Motion::advance(std::span<const Point> x0, double t, double dt, std::uint64_t step,
+                     std::span<Point> x1) const {
+  if (noises_.empty()) {
+    tbb::parallel_for(vertices(x0), [&](const Range& some) {
+      for (int v = some.begin(); v < some.end(); ++v) x1[v] = moved(x0[v], smooth_way(v, x0[v], t, dt));
+    });
+    return;
+  }
+  const NoiseCut cut(x0, constrained_, fill_noise(dt, step, x1));
+  tbb::parallel_for(vertices(x0), [&](const Range& some) {
+    for (int v = some.begin(); v < some.end(); ++v)
+      x1[v] = moved(x0[v], smooth_way(v, x0[v], t, dt) + cut(x0[v], x1[v]));
+  });
+}
+
+Point Motion::smooth_way(int vertex, const Point& x0, double t, double dt) const {
+  if (freedom_.of(vertex) == BorderCondition::Fixed) return {0.0, 0.0};
+  Point way = freedom_.allowed(vertex, displacement(vertex, t, dt));
+  if (acts(velocities_, vertex))
+    way += integrate(
+        integrator_, [&](const Point& x, double s) { return velocity(vertex, x, s); }, x0, t, dt);
+  return way;
+}
+
+Point Motion::velocity(int vertex, const Point& x, double t) const {
+  Point sum(0.0, 0.0);
+  for (const auto& term : velocities_)
+    if (const double w = term.weight(vertex); w != 0.0) sum += w * term.field->velocity(x, t);
+  return freedom_.allowed(vertex, sum);
+}
+
+Point Motion::displacement(int vertex, double t, double dt) const {
+  const Point& initial = initial_[vertex];
+  Point sum(0.0, 0.0);
+  for (const auto& term : displacements_)
+    if (const double w = term.weight(vertex); w != 0.0)
+      sum += w * (term.field->displacement(initial, t + dt) - term.field->displacement(initial, t));
+  return sum;
+}
+
+Point Motion::noise(int vertex, std::uint64_t step, double dt) const {
+  Point sum(0.0, 0.0);
+  if (constrained_vertex_[vertex] || freedom_.of(vertex) != BorderCondition::Moving) return sum;
+  for (const auto& term : noises_)
+    if (const double w = term.weight(vertex); w != 0.0)
+      sum += w * term.field->kick(static_cast<std::uint64_t>(user_vertex_[vertex]), step, dt, spacing_);
+  return sum;
+}
+
+double Motion::fill_noise(double dt, std::uint64_t step, std::span<Point> noises) const {
+  return tbb::parallel_reduce(
+      vertices(noises), 0.0,
+      [&](const Range& some, double longest) {
+        for (int v = some.begin(); v < some.end(); ++v) {
+          noises[v] = noise(v, step, dt);
+          longest = std::max(longest, glm::length(noises[v]));
+        }
+        return longest;
+      },
+      [](double a, double b) { return std::max(a, b); });
+}
+
+std::string Motion::describe_non_finite(int vertex, std::span<const Point> x0, double t, double dt,
+                                        std::uint64_t step) const {
+  const auto blame = [&](const auto& field, const Point& value) {
+    return "field \"" + std::string(field->name()) + "\" gives " + shortest(value) + " at vertex " +
+           std::to_string(user_vertex_[vertex]) + ", " + shortest(x0[vertex]) + ", time " + shortest(t);
+  };
+  for (const auto& term : velocities_) {
+    if (term.weight(vertex) == 0.0) continue;
+    const auto v = [&](const Point& x, double s) { return term.field->velocity(x, s); };
+    for (const Point& value : {v(x0[vertex], t), integrate(integrator_, v, x0[vertex], t, dt)})
+      if (!is_finite(value)) return blame(term.field, value);
+  }
+  for (const auto& term : displacements_)
+    for (const double s : {t, t + dt})
+      if (const Point d = term.field->displacement(initial_[vertex], s);
+          term.weight(vertex) != 0.0 && !is_finite(d))
+        return blame(term.field, d);
+  for (const auto& term : noises_)
+    if (const Point kick = term.field->kick(user_vertex_[vertex], step, dt, spacing_);
+        term.weight(vertex) != 0.0 && !is_finite(kick))
+      return blame(term.field, kick);
+  return "the motions add up to a non-finite position at vertex " + std::to_string(user_vertex_[vertex]) +
+         ", " + shortest(x0[vertex]) + ", time " + shortest(t);
+}
+
+}  // namespace kinemesh
