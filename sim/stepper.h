@@ -2,8 +2,8 @@
 //
 //   kinemesh::Stepper stepper(kinemesh::build_mesh(data));
 //   while (...) {
-//     auto outcome = stepper.step(my_new_positions, dt);     // in the user's order; or stepper.step(motion, dt)
-//     if (!outcome) { report(outcome.defect->message()); break; }
+//     auto outcome = stepper.step(my_new_positions, dt);  // in the user's order; or stepper.step(motion, dt)
+//     if (!outcome) return report(outcome.defect->message());
 //     use(stepper.mesh().domain(), outcome.record);
 //   }
 #pragma once
@@ -40,8 +40,8 @@ struct StepRecord {
   bool accepted = false;
 };
 
-// A step is a transaction: without a defect the mesh is valid at the new positions; with one, mesh, positions and time
-// are bit for bit what they were.
+// A step is a transaction: without a defect the mesh is valid at the new positions; with one, mesh, positions
+// and time are bit for bit what they were.
 struct StepOutcome {
   StepRecord record;
   std::optional<Defect> defect;
@@ -54,12 +54,16 @@ class Stepper {
   // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy.
   explicit Stepper(Mesh mesh, const StepperOptions& options = {});
 
-  // To given positions, one per user's vertex in the user's order.
+  // To given positions, one per user's vertex in the user's order. Throws InputError for another number of
+  // them or a dt that is negative or not finite; mesh and time are then as they were, as after any other
+  // exception.
   [[nodiscard]] StepOutcome step(std::span<const Point> positions, double dt);
 
   // By a motion from time() to time() + dt; `motion` was built on this stepper's initial mesh.
   [[nodiscard]] StepOutcome step(const Motion& motion, double dt);
-  [[nodiscard]] StepOutcome step_to(const Motion& motion, double end_time);  // sets time() to end_time exactly
+
+  // Likewise, and sets time() to end_time exactly.
+  [[nodiscard]] StepOutcome step_to(const Motion& motion, double end_time);
 
   const Mesh& mesh() const { return mesh_; }
   double time() const { return time_; }
@@ -68,7 +72,9 @@ class Stepper {
 
  private:
   template <class Move>
-  StepOutcome advance(double end_time, const Move& move);
+  StepOutcome advance(double end_time, double dt, const Move& move);
+  StepOutcome step_by(const Motion& motion, double end_time, double dt);
+  void repair_moved(StepOutcome& outcome);
 
   Mesh mesh_;
   std::unique_ptr<Strategy> strategy_;

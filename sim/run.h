@@ -1,0 +1,83 @@
+// Runs a scenario: steps, logs, files.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/scenario.h"
+#include "sim/stepper.h"
+
+namespace kinemesh {
+
+struct RunOptions {
+  std::filesystem::path directory;  // empty: the scenario's name in the current folder
+  bool force = false;               // a run that is already there makes way
+  bool dry_run = false;             // check everything, step nothing, write nothing
+  int threads = 0;                  // 0: all cores
+  std::vector<std::string> argv;    // for run.json
+  bool stop_on_signals = true;      // SIGINT and SIGTERM end the run after the step
+};
+
+// Known before the first step.
+struct RunPlan {
+  std::filesystem::path directory;
+  std::string strategy;
+  int steps = 0;
+  double end_time = 0.0;
+  int threads = 1;
+  int vertices = 0, faces = 0;  // of the domain
+  int padding_faces = 0;
+  std::vector<std::string> markers;
+  double min_angle_deg = 0.0;
+};
+
+// Milliseconds, summed over the steps.
+struct PhaseTimes {
+  double move = 0.0, detect = 0.0, explore = 0.0, triangulate = 0.0, splice = 0.0, quality = 0.0;
+  double total = 0.0;  // of the steps
+  double write = 0.0;  // logs and meshes, beside the steps
+};
+
+struct RunSummary {
+  RunPlan plan;
+  int steps = 0;      // accepted
+  double time = 0.0;  // reached
+  int steps_tangled = 0;
+  long long inverted = 0;  // inverted and flat faces, summed over the accepted steps like the following
+  long long regions = 0;
+  long long region_faces = 0;
+  int region_faces_max = 0;  // the largest region
+  long long replaced = 0;    // faces rewritten
+  double share_mean = 0.0;   // of the faces, padding included, that a step rewrote: over all steps
+  double share_max = 0.0;
+  int escaped_max = 0;  // vertices in any one step
+  long long retries = 0;
+  PhaseTimes ms;
+  std::optional<std::string> stopped;        // why it ended early; nothing: all steps ended valid
+  std::vector<std::filesystem::path> files;  // to open: the series, the last mesh, the logs
+};
+
+// Told of what happens, in the thread that called run.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  virtual void note(const std::string& /*text*/) {}    // something the user should know
+  virtual void detail(const std::string& /*text*/) {}  // something for who wants to know more
+  virtual void started(const RunPlan& /*plan*/) {}
+  virtual void stepped(const StepRecord& /*record*/, const Mesh& /*mesh*/) {}  // rejected steps, too
+  virtual void finished(const RunSummary& /*summary*/) {}
+};
+
+// Writes scenario.toml, run.json, steps.csv, regions.csv, mesh_NNNNNN.vtu, mesh.pvd and the last mesh as
+// final.EXT in the input's own format into options.directory. The files but the two CSVs, which grow a line
+// at a time, are whole or not there. Results do not depend on the number of threads, timings apart.
+//
+// Throws InputError before the first step, with nothing written, for whatever is wrong with scenario, mesh or
+// directory; a tangled mesh and a moving convex hull without frame among them. What goes wrong later, a step
+// without valid mesh, a full disk, a signal, ends the run: `stopped` says why, and the last valid mesh is
+// written.
+RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver& observer);
+
+}  // namespace kinemesh

@@ -1,0 +1,264 @@
+#include "sim/scenario.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/io/atomic_file.h"
+#include "motion/registry.h"
+#include "motion/restriction.h"
+#include "sim/overrides.h"
+#include "sim/toml_table.h"
+#include "untangle/strategy.h"
+
+namespace kinemesh {
+namespace {
+
+constexpr int most = std::numeric_limits<int>::max();
+
+template <class Items>
+std::vector<std::string> names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+void require_one_of(const TomlTable& table, std::string_view key, const std::string& name,
+                    const std::vector<std::string>& names) {
+  if (std::ranges::find(names, name) == names.end())
+    table.fail(key, "unknown: '" + name + "'" + suggestion(name, names));
+}
+
+// A whole section, or an empty one where it is absent.
+TomlTable section(TomlTable& root, std::string_view key) {
+  static const toml::table nothing;
+  const auto* table = root.table(key);
+  return {table ? *table : nothing, "[" + std::string(key) + "]"};
+}
+
+void read_file_source(TomlTable& table, const std::string& file, const std::filesystem::path& folder,
+                      MeshSpec& mesh) {
+  for (const std::string_view key : {"shape", "vertices", "seed", "k"})
+    if (table.has(key)) table.fail(key, "belongs to a shape, but 'file' is given");
+  if (file.empty()) table.fail("file", "the name of a mesh file expected");
+  mesh.file = (folder / file).lexically_normal();
+}
+
+void read_shape_source(TomlTable& table, const std::string& shape, MeshSpec& mesh) {
+  mesh.shape = shape;
+  mesh.vertices = static_cast<int>(table.integer("vertices", 3, most).value_or(mesh.vertices));
+  mesh.seed =
+      static_cast<std::uint64_t>(table.integer("seed", 0).value_or(static_cast<std::int64_t>(mesh.seed)));
+  const auto k = table.integer("k", 1, 1000);
+  if (k && shape != "umbilic") table.fail("k", "belongs to the shape umbilic");
+  mesh.k = static_cast<int>(k.value_or(mesh.k));
+}
+
+MeshSpec read_mesh_spec(TomlTable& table, const std::filesystem::path& folder) {
+  MeshSpec mesh;
+  mesh.where = table.where();
+  const auto file = table.text("file"), shape = table.text("shape");
+  if (file) {
+    read_file_source(table, *file, folder, mesh);
+  } else if (shape) {
+    mesh.where = table.where("shape");
+    read_shape_source(table, *shape, mesh);
+  } else {
+    throw error_at(table.where(), "[mesh]: file or shape expected");
+  }
+  mesh.frame = table.not_negative("frame").value_or(mesh.frame);
+  table.refuse_other_keys();
+  return mesh;
+}
+
+// Calls f() and gives its ParameterError the line of the key it is about.
+template <class F>
+void with_lines(const MotionSpec& motion, const F& f) {
+  try {
+    f();
+  } catch (const ParameterError& error) {
+    throw error_at(motion.where_of(error.key()), error.what());
+  }
+}
+
+void read_blend(TomlTable& table, MotionSpec& motion) {
+  const auto value = table.value("blend");
+  if (!value) return;
+  const auto* pair = std::get_if<std::vector<double>>(&*value);
+  if (!pair || pair->size() != 2) table.fail("blend", "two distances expected: [full, zero]");
+  motion.blend = {(*pair)[0], (*pair)[1]};
+}
+
+void check_motion(const MotionSpec& motion) {
+  with_lines(motion, [&] {
+    make_field(motion.field, motion.parameters);
+    parse_restriction(motion.on, motion.blend);
+  });
+}
+
+void add_defaults(MotionSpec& motion) {
+  for (const auto& field : fields()) {
+    if (field.name != motion.field) continue;
+    for (const auto& parameter : field.parameters)
+      if (parameter.otherwise) motion.parameters.try_emplace(parameter.name, *parameter.otherwise);
+  }
+}
+
+MotionSpec read_motion(const toml::table& source) {
+  TomlTable table(source, "[[motion]]");
+  MotionSpec motion;
+  motion.where = table.where();
+  for (const auto& key : table.keys()) motion.key_where[key] = table.where(key);
+  const auto field = table.text("field");
+  if (!field) throw error_at(motion.where, "[[motion]]: field expected, one `kinemesh list` names");
+  motion.field = *field;
+  require_one_of(table, "field", motion.field, names_of(fields()));
+  motion.on = table.text("on").value_or(motion.on);
+  read_blend(table, motion);
+  for (const auto& key : table.keys())
+    if (key != "field" && key != "on" && key != "blend") motion.parameters.emplace(key, *table.value(key));
+  check_motion(motion);
+  add_defaults(motion);
+  return motion;
+}
+
+std::vector<MotionSpec> read_motions(TomlTable& root) {
+  std::vector<MotionSpec> motions;
+  for (const auto* table : root.tables("motion")) motions.push_back(read_motion(*table));
+  if (motions.empty()) throw error_at(root.where(), "at least one [[motion]] expected");
+  return motions;
+}
+
+BorderCondition read_condition(TomlTable& table, const std::string& key) {
+  try {
+    return parse_border_condition(*table.text(key), key);
+  } catch (const ParameterError& error) {
+    throw error_at(table.where(key), error.what());
+  }
+}
+
+BorderSpec read_border(TomlTable& table) {
+  BorderSpec border;
+  for (const auto& key : table.keys()) {
+    border.marker_where[key] = table.where(key);
+    const auto condition = read_condition(table, key);
+    if (key == "default")
+      border.conditions.otherwise = condition;
+    else
+      border.conditions.by_marker[key] = condition;
+  }
+  return border;
+}
+
+Integrator read_integrator(TomlTable& table) {
+  const auto name = table.text("integrator");
+  if (!name) return Integrator::Rk4;
+  try {
+    return parse_integrator(*name);
+  } catch (const ParameterError& error) {
+    throw error_at(table.where("integrator"), error.what());
+  }
+}
+
+void complete(const TomlTable& table, const std::optional<double>& end, const std::optional<double>& dt,
+              const std::optional<std::int64_t>& steps, TimeSpec& time) {
+  time.steps = static_cast<int>(steps.value_or(0));
+  time.dt = dt ? *dt : *end / time.steps;
+  time.end = end ? *end : *dt * time.steps;
+  if (!std::isfinite(time.end)) table.fail("steps", "steps times dt overflows");
+  if (time.dt == 0.0) table.fail("steps", "so many steps to so early an end are of no length");
+  if (steps) return;
+  const auto needed = steps_to_reach(*end, *dt);
+  if (!needed) table.fail("dt", "too short, it takes more than " + std::to_string(most) + " steps");
+  time.steps = *needed;
+}
+
+TimeSpec read_time(TomlTable& table) {
+  TimeSpec time;
+  const auto end = table.positive("end"), dt = table.positive("dt");
+  const auto steps = table.integer("steps", 1, most);
+  time.integrator = read_integrator(table);
+  table.refuse_other_keys();
+  if (end.has_value() + dt.has_value() + steps.has_value() != 2)
+    throw error_at(table.where(), "[time]: two of end, dt and steps expected");
+  complete(table, end, dt, steps, time);
+  return time;
+}
+
+RepairSpec read_repair(TomlTable& table) {
+  RepairSpec repair;
+  repair.strategy = table.text("strategy").value_or(repair.strategy);
+  require_one_of(table, "strategy", repair.strategy, names_of(strategies()));
+  repair.quality = table.text("quality").value_or(repair.quality);
+  require_one_of(table, "quality", repair.quality, {"none"});
+  repair.allow_escaped = table.boolean("allow_escaped").value_or(repair.allow_escaped);
+  table.refuse_other_keys();
+  return repair;
+}
+
+OutputSpec read_output(TomlTable& table) {
+  OutputSpec output;
+  output.every = static_cast<int>(table.integer("every", 0, most).value_or(output.every));
+  output.checkpoint = static_cast<int>(table.integer("checkpoint", 0, most).value_or(output.checkpoint));
+  table.refuse_other_keys();
+  return output;
+}
+
+toml::table parse_toml(std::string_view text, const std::string& file) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    throw InputError(file, static_cast<int>(error.source().begin.line), std::string(error.description()));
+  }
+}
+
+Scenario read_scenario(const toml::table& document, const std::filesystem::path& file) {
+  TomlTable root(document, "");
+  Scenario scenario;
+  scenario.file = file;
+  auto mesh = section(root, "mesh"), border = section(root, "border"), time = section(root, "time"),
+       repair = section(root, "repair"), output = section(root, "output");
+  root.known("motion");
+  root.refuse_other_keys();
+  for (const std::string_view key : {"mesh", "time"})
+    if (!root.has(key)) throw error_at(root.where(), "[" + std::string(key) + "] expected");
+  scenario.mesh = read_mesh_spec(mesh, std::filesystem::absolute(file).parent_path());
+  scenario.motions = read_motions(root);
+  scenario.border = read_border(border);
+  scenario.time = read_time(time);
+  scenario.repair = read_repair(repair);
+  scenario.output = read_output(output);
+  return scenario;
+}
+
+}  // namespace
+
+Where MotionSpec::where_of(std::string_view key) const {
+  const auto found = key_where.find(key);
+  return found == key_where.end() ? where : found->second;
+}
+
+double TimeSpec::time_after(int step) const {
+  return step >= steps ? end : step * dt;
+}
+
+std::optional<int> steps_to_reach(double end, double dt) {
+  const double ratio = end / dt;
+  if (!(ratio < most)) return std::nullopt;
+  // end, dt and the ratio are rounded once each: what exceeds a whole number by less is not a step.
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * ratio;
+  return std::max(1, static_cast<int>(std::ceil(ratio - rounding)));
+}
+
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& file,
+                        std::span<const std::string> overrides) {
+  auto document = parse_toml(text, file.string());
+  for (const auto& assignment : overrides) apply_override(document, assignment);
+  return read_scenario(document, file);
+}
+
+Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_scenario(read_file(file), file, overrides);
+}
+
+}  // namespace kinemesh

@@ -1,0 +1,25 @@
+// From a scenario's words to a mesh and its motion. Errors are InputErrors with the scenario's file and line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/io/mesh_io.h"
+#include "core/mesh.h"
+#include "motion/motion.h"
+#include "sim/scenario.h"
+
+namespace kinemesh {
+
+struct SetUp {
+  Mesh mesh;
+  Motion motion;
+  Format format;                   // of the input file; SU2 for shapes, which have markers
+  std::vector<std::string> notes;  // of the mesh's reader
+};
+
+// Post: the mesh is valid, every marker and label the scenario names is in it, and no border that is part of
+// a convex hull without frame moves. Throws InputError otherwise.
+SetUp set_up(const Scenario& scenario);
+
+}  // namespace kinemesh

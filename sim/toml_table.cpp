@@ -1,0 +1,209 @@
+#include "sim/toml_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace kinemesh {
+namespace {
+
+Where where_of(const toml::source_region& source) {
+  Where where;
+  if (source.path) where.file = *source.path;
+  // The text of an override has but one line.
+  if (!where.file.starts_with("--set ")) where.line = static_cast<int>(source.begin.line);
+  return where;
+}
+
+// Levenshtein's distance.
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (const char c : a) {
+    int diagonal = row[0]++;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const int changed = diagonal + (c == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+const char* name_of(toml::node_type type) {
+  switch (type) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
+  }
+}
+
+std::string as_written(const toml::node& node) {
+  std::ostringstream text;
+  node.visit([&](const auto& n) {
+    if constexpr (toml::is_value<decltype(n)>) text << n;
+  });
+  return text.str().empty() ? name_of(node.type()) : text.str();
+}
+
+std::optional<double> as_finite(const toml::node& node) {
+  const std::optional<double> number = node.is_number() ? node.value<double>() : std::nullopt;
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+// All its elements, or nothing unless they are finite numbers.
+std::optional<std::vector<double>> as_numbers(const toml::array& list) {
+  std::vector<double> numbers;
+  for (const auto& element : list) {
+    const auto number = as_finite(element);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+Where where_of(const toml::node& node) {
+  return where_of(node.source());
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  if (candidates.empty()) return "";
+  const auto distance = [&](const std::string& candidate) { return edit_distance(word, candidate); };
+  const auto nearest = std::ranges::min_element(candidates, {}, distance);
+  if (distance(*nearest) <= std::max<int>(1, static_cast<int>(word.size()) / 3))
+    return ", did you mean '" + *nearest + "'?";
+  return ", expected one of: " + joined(candidates);
+}
+
+TomlTable::TomlTable(const toml::table& table, std::string name) : table_(table), name_(std::move(name)) {}
+
+const toml::node* TomlTable::find(std::string_view key) {
+  known_.emplace_back(key);
+  return table_.get(key);
+}
+
+std::optional<double> TomlTable::number(std::string_view key) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  const auto number = as_finite(*node);
+  if (!number) fail(key, as_written(*node) + ", a finite number expected");
+  return number;
+}
+
+std::optional<double> TomlTable::positive(std::string_view key) {
+  const auto value = number(key);
+  if (value && *value <= 0) fail(key, as_written(*table_.get(key)) + ", a number above 0 expected");
+  return value;
+}
+
+std::optional<double> TomlTable::not_negative(std::string_view key) {
+  const auto value = number(key);
+  if (value && *value < 0) fail(key, as_written(*table_.get(key)) + ", a number not below 0 expected");
+  return value;
+}
+
+std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_t from, std::int64_t to) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  const auto* number = node->as_integer();
+  if (number && number->get() >= from && number->get() <= to) return number->get();
+  const bool open = to == std::numeric_limits<std::int64_t>::max();
+  fail(key, as_written(*node) + ", an integer from " + std::to_string(from) +
+                (open ? std::string(" on") : " to " + std::to_string(to)) + " expected");
+}
+
+std::optional<bool> TomlTable::boolean(std::string_view key) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_boolean()) fail(key, as_written(*node) + ", true or false expected");
+  return node->as_boolean()->get();
+}
+
+std::optional<std::string> TomlTable::text(std::string_view key) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_string()) fail(key, as_written(*node) + ", a text in quotes expected");
+  return node->as_string()->get();
+}
+
+std::optional<ParameterValue> TomlTable::value(std::string_view key) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  if (const auto* text = node->as_string()) return text->get();
+  if (const auto* integer = node->as_integer()) return integer->get();
+  if (const auto number = as_finite(*node)) return *number;
+  if (const auto* list = node->as_array())
+    if (auto numbers = as_numbers(*list)) return std::move(*numbers);
+  fail(key, as_written(*node) + ", a finite number, a text or a list of numbers expected");
+}
+
+const toml::table* TomlTable::table(std::string_view key) {
+  const auto* node = find(key);
+  if (node && !node->is_table())
+    fail(key, as_written(*node) + ", a table expected: [" + std::string(key) + "]");
+  return node ? node->as_table() : nullptr;
+}
+
+std::vector<const toml::table*> TomlTable::tables(std::string_view key) {
+  const auto* node = find(key);
+  if (!node) return {};
+  std::vector<const toml::table*> tables;
+  if (const auto* list = node->as_array())
+    for (const auto& element : *list) tables.push_back(element.as_table());
+  if (!node->is_array() || std::ranges::count(tables, nullptr) > 0)
+    fail(key, as_written(*node) + ", a list of tables expected: [[" + std::string(key) + "]]");
+  return tables;
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, node] : table_) keys.emplace_back(key.str());
+  return keys;
+}
+
+Where TomlTable::where() const {
+  return where_of(table_);
+}
+
+Where TomlTable::where(std::string_view key) const {
+  const auto found = table_.find(key);
+  return found == table_.end() ? where() : where_of(found->first.source());
+}
+
+void TomlTable::refuse_other_keys() const {
+  const toml::key* first = nullptr;
+  for (const auto& [key, node] : table_) {
+    const bool is_known = std::ranges::find(known_, key.str()) != known_.end();
+    if (!is_known && (!first || key.source().begin.line < first->source().begin.line)) first = &key;
+  }
+  if (!first) return;
+  throw error_at(where_of(first->source()), "unknown key '" + std::string(first->str()) +
+                                                (name_.empty() ? "'" : "' in " + name_) +
+                                                suggestion(first->str(), known_));
+}
+
+void TomlTable::fail(std::string_view key, const std::string& what) const {
+  throw error_at(where(key), std::string(key) + ": " + what);
+}
+
+}  // namespace kinemesh
