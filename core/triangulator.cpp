@@ -14,6 +14,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/stopwatch.h"
+
 namespace kinemesh {
 namespace {
 
@@ -154,7 +156,9 @@ Triangulator& Triangulator::operator=(Triangulator&&) noexcept = default;
 std::optional<Contact> Triangulator::triangulate(std::span<const Point> points, std::span<const Edge> edges,
                                                  Triangulation& out) {
   impl_->cdt.clear();
+  const Stopwatch stopwatch;
   const bool inserted = impl_->insert_points(points) && impl_->insert_edges(edges);
+  milliseconds_ += stopwatch.milliseconds();
   if (inserted) {
     impl_->extract(out);
     if (impl_->has_all_edges(out) || impl_->cdt.dimension() < 2) return std::nullopt;

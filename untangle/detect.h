@@ -14,11 +14,12 @@ struct Tangles {
   bool empty() const { return inverted.empty() && flat.empty(); }
 };
 
-// Exact. Padding included. One sweep over the flat mirror in all threads; the result does not depend on their number.
+// Exact. Padding included. One sweep over the flat mirror in all threads; the result does not depend on their
+// number.
 Tangles detect(const Mesh& mesh);
 
-// Inverted components [Agarwal 2008, §2]: for each face of `tangles.inverted`, in its order, the number of its class
-// under "shares an edge with", numbered by first appearance.
+// Inverted components [Agarwal 2008, §2]: for each face of `tangles.inverted`, in its order, the number of
+// its class under "shares an edge with", numbered by first appearance.
 struct Components {
   std::vector<int> of;  // parallel to Tangles::inverted
   int count = 0;

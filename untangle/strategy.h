@@ -16,21 +16,22 @@ namespace kinemesh {
 
 // One replaced region. Counts include padding unless said otherwise.
 struct RegionRecord {
-  int seed = none;             // smallest inverted or flat face, user's number; none if all of them are padding
-  std::vector<int> faces;      // R*: the mesh's faces (not the user's numbers), ascending, as they were when it was found;
-                               // their handles now hold the new faces
-  std::vector<int> user_faces; // the domain's faces among them, user's numbers, ascending
-  int inverted = 0;            // inverted faces in it
-  int degenerate = 0;          // flat faces in it
-  int components = 0;          // inverted components
-  int explored = 0;            // faces read as candidates; equals faces.size()
+  int seed = none;         // smallest inverted or flat face, user's number; none if all of them are padding
+  std::vector<int> faces;  // R*: the mesh's faces (not the user's numbers), ascending, as they were when it
+                           // was found; their handles now hold the new faces
+  std::vector<int> user_faces;  // the domain's faces among them, user's numbers, ascending
+  int inverted = 0;             // inverted faces in it
+  int degenerate = 0;           // flat faces in it
+  int components = 0;           // inverted components
+  int explored = 0;             // faces read as candidates; equals faces.size()
   int border_edges = 0;
-  int crease_edges = 0;        // edges between an inverted and an upright face
-  int gamma_first_stable = 1;  // signed cover of the region when extending first came to rest [Agarwal 2008, §4]
-  int gamma = 1;               // and at the end
-  int retries = 0;             // enlargements the safety net needed; 0 outside freak cases
-  bool self_overlap = false;   // the region's border overlaps itself in the plane
-  Point centre{0.0, 0.0};      // of the bounding box of its vertices
+  int crease_edges = 0;  // edges between an inverted and an upright face
+  int gamma_first_stable =
+      1;            // signed cover of the region when extending first came to rest [Agarwal 2008, §4]
+  int gamma = 1;    // and at the end
+  int retries = 0;  // enlargements the safety net needed; 0 outside freak cases
+  bool self_overlap = false;  // the region's border overlaps itself in the plane
+  Point centre{0.0, 0.0};     // of the bounding box of its vertices
 
   int padding_faces() const { return static_cast<int>(faces.size() - user_faces.size()); }
 };
@@ -62,7 +63,8 @@ struct RepairOutcome {
 };
 
 struct RepairOptions {
-  bool allow_escaped = false;  // count vertices on the wrong side of their border or interface instead of failing
+  bool allow_escaped =
+      false;  // count vertices on the wrong side of their border or interface instead of failing
 };
 
 class Strategy {
@@ -71,8 +73,9 @@ class Strategy {
 
   virtual std::string_view name() const = 0;
 
-  // Makes every face upright by changing connectivity only, or changes nothing. Positions are read, never written.
-  // Deterministic, whatever the number of threads. May keep scratch memory between calls; one object per thread.
+  // Makes every face upright by changing connectivity only, or changes nothing. Positions are read, never
+  // written. Deterministic, whatever the number of threads. May keep scratch memory between calls; one object
+  // per thread.
   [[nodiscard]] virtual RepairOutcome repair(Mesh& mesh, const RepairOptions& options) = 0;
 };
 

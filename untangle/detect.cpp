@@ -1,0 +1,74 @@
+#include "untangle/detect.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "core/predicates.h"
+
+namespace kinemesh {
+namespace {
+
+constexpr int chunk = 1 << 14;  // faces a task sweeps
+
+void sweep(const Mesh& mesh, int begin, int end, Tangles& found) {
+  const Point* const x = mesh.positions().data();
+  const Triangle* const triangles = mesh.triangles().data();
+  for (int f = begin; f < end; ++f) {
+    const auto [a, b, c] = triangles[f];
+    const auto turn = orientation(x[a], x[b], x[c]);
+    if (turn == Orientation::CounterClockwise) [[likely]]
+      continue;
+    (turn == Orientation::Clockwise ? found.inverted : found.flat).push_back(f);
+  }
+}
+
+void append(std::vector<int>& all, const std::vector<int>& some) {
+  all.insert(all.end(), some.begin(), some.end());
+}
+
+}  // namespace
+
+Tangles detect(const Mesh& mesh) {
+  const int n_chunks = (mesh.n_faces() + chunk - 1) / chunk;
+  std::vector<Tangles> found(n_chunks);
+  tbb::parallel_for(0, n_chunks, [&](int i) {
+    sweep(mesh, i * chunk, std::min((i + 1) * chunk, mesh.n_faces()), found[i]);
+  });
+  Tangles all;
+  for (const auto& part : found) {
+    append(all.inverted, part.inverted);
+    append(all.flat, part.flat);
+  }
+  return all;
+}
+
+Components inverted_components(const Mesh& mesh, const std::vector<int>& inverted) {
+  const auto rank_of = [&](int face) {
+    const auto found = std::lower_bound(inverted.begin(), inverted.end(), face);
+    return found != inverted.end() && *found == face ? static_cast<int>(found - inverted.begin()) : none;
+  };
+  Components components{std::vector<int>(inverted.size(), none), 0};
+  std::vector<int> pending;
+  for (std::size_t first = 0; first < inverted.size(); ++first) {
+    if (components.of[first] != none) continue;
+    components.of[first] = components.count;
+    pending.push_back(static_cast<int>(first));
+    while (!pending.empty()) {
+      const int face = inverted[pending.back()];
+      pending.pop_back();
+      for (const int h : mesh.sides(face)) {
+        const int neighbour = mesh.face_of(Mesh::opposite(h));
+        const int rank = neighbour == none ? none : rank_of(neighbour);
+        if (rank == none || components.of[rank] != none) continue;
+        components.of[rank] = components.count;
+        pending.push_back(rank);
+      }
+    }
+    ++components.count;
+  }
+  return components;
+}
+
+}  // namespace kinemesh

@@ -1,0 +1,22 @@
+// Which faces a global repair has to replace: the preimage phi(I) of everything an inverted face covers.
+#pragma once
+
+#include "core/mesh.h"
+#include "untangle/detect.h"
+#include "untangle/face_sets.h"
+
+namespace kinemesh {
+
+// Walks whole faces from the tangled ones, F, across an edge e if
+//   (i)   it is an edge of a face of F, or
+//   (ii)  f(e) meets the interior of an inverted face's shadow, or
+//   (iii) f(e) touches the shadow of an edge of a face of F anywhere but at the image of a common end point.
+// In general position the faces reached are exactly R* = phi(I)* [Agarwal 2008, §5]: where every inverted
+// face is a seed, the whole preimage of their shadow is wanted, so neither signs nor growing are needed
+// (Theorem 5.1). In degenerate positions rule (iii) adds the faces without which a region's border would
+// touch a shadow. Each connected piece of the walk becomes a set of `regions`, in the order of their first
+// tangled face, the faces of each ascending. Reads the data of no face that is not in a region.
+// Deterministic.
+void walk_globally(const Mesh& mesh, const Tangles& tangles, FaceSets& regions);
+
+}  // namespace kinemesh

@@ -1,0 +1,15 @@
+// Turns a region's faces into the line that is logged of it.
+#pragma once
+
+#include "core/mesh.h"
+#include "untangle/detect.h"
+#include "untangle/strategy.h"
+
+namespace kinemesh {
+
+// Fills what follows from the faces alone (faces, user_faces, seed, inverted, degenerate, components,
+// crease_edges, explored). To be called before anything is spliced. Pre: faces ascending.
+RegionRecord describe_region(const Mesh& mesh, const std::vector<int>& faces, const Tangles& tangles,
+                             const Components& components);
+
+}  // namespace kinemesh

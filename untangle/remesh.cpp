@@ -1,0 +1,48 @@
+#include "untangle/remesh.h"
+
+#include <stdexcept>
+
+#include "core/stopwatch.h"
+#include "untangle/detect.h"
+#include "untangle/records.h"
+
+namespace kinemesh {
+
+RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
+  RepairOutcome outcome;
+  auto& record = outcome.record;
+  const Stopwatch detecting;
+  const auto tangles = detect(mesh);
+  const auto components = inverted_components(mesh, tangles.inverted);
+  record.inverted = static_cast<int>(tangles.inverted.size());
+  record.degenerate = static_cast<int>(tangles.flat.size());
+  record.components = components.count;
+  record.detect_ms = detecting.milliseconds();
+
+  const Stopwatch working;
+  const double cgal_before = mesher_.triangulator_ms();
+  everything_.reset(mesh.n_faces());
+  const int all = everything_.open();
+  for (int face = 0; face < mesh.n_faces(); ++face) everything_.add(face, all);
+  const auto result = mesher_.run(mesh, options, everything_, all);
+  record.triangulate_ms = mesher_.triangulator_ms() - cgal_before;
+  if (result == RegionMesher::Result::NoMesh) {
+    outcome.defect = mesher_.defect();
+    return outcome;
+  }
+  // The border of the whole is convex, so only a vertex outside could make it fail, and that is NoMesh.
+  if (result == RegionMesher::Result::NotSimple)
+    throw std::logic_error("the whole mesh has no simple border");
+
+  auto line = describe_region(mesh, everything_.faces(all), tangles, components);
+  line.border_edges = mesher_.border_edges();
+  line.centre = mesher_.centre();
+  record.replaced = mesh.n_faces();
+  record.escaped = mesher_.escaped();
+  record.regions.push_back(std::move(line));
+  mesh.splice(mesher_.patch());
+  record.splice_ms = working.milliseconds() - record.triangulate_ms;
+  return outcome;
+}
+
+}  // namespace kinemesh

@@ -1,0 +1,40 @@
+// Spatial index over the shadows of the tangled faces.
+#pragma once
+
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <span>
+#include <vector>
+
+#include "core/mesh.h"
+
+namespace kinemesh {
+
+class ShadowIndex {
+ public:
+  // The closed shadows of `faces` at the mesh's positions.
+  ShadowIndex(const Mesh& mesh, std::span<const int> faces);
+
+  // True if `hit(face)` holds for a face whose bounding box meets that of the segment a, b.
+  template <class Hit>
+  bool any_near(const Point& a, const Point& b, const Hit& hit) const {
+    namespace bgi = boost::geometry::index;
+    const auto query =
+        bgi::intersects(box_of(a, b)) && bgi::satisfies([&](const Entry& e) { return hit(e.second); });
+    return tree_.qbegin(query) != tree_.qend();
+  }
+
+ private:
+  using Corner = boost::geometry::model::d2::point_xy<double>;
+  using Box = boost::geometry::model::box<Corner>;
+  using Entry = std::pair<Box, int>;
+
+  static Box box_of(const Point& a, const Point& b) {
+    return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+  }
+
+  boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>> tree_;
+};
+
+}  // namespace kinemesh
