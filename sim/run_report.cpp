@@ -1,0 +1,112 @@
+#include "sim/run_report.h"
+
+#include <fmt/chrono.h>
+
+#include <algorithm>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "core/io/atomic_file.h"
+
+namespace kinemesh {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string now_utc() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+const char* to_string(RunState state) {
+  switch (state) {
+    case RunState::Running:
+      return "running";
+    case RunState::Done:
+      return "done";
+    case RunState::Stopped:
+      break;
+  }
+  return "stopped";
+}
+
+Json mesh_json(const RunPlan& plan) {
+  return {{"vertices", plan.vertices},
+          {"faces", plan.faces},
+          {"padding_faces", plan.padding_faces},
+          {"markers", plan.markers}};
+}
+
+Json totals_json(const RunSummary& s) {
+  return {{"steps_tangled", s.steps_tangled},
+          {"inverted", s.inverted},
+          {"regions", s.regions},
+          {"region_faces", s.region_faces},
+          {"region_faces_max", s.region_faces_max},
+          {"replaced", s.replaced},
+          {"share_mean", s.share_mean},
+          {"share_max", s.share_max},
+          {"retries", s.retries}};
+}
+
+Json times_json(const PhaseTimes& ms) {
+  return {{"move", ms.move},       {"detect", ms.detect},
+          {"explore", ms.explore}, {"triangulate", ms.triangulate},
+          {"splice", ms.splice},   {"quality", ms.quality},
+          {"total", ms.total},     {"write", ms.write}};
+}
+
+}  // namespace
+
+void add_step(RunSummary& summary, const StepRecord& record, int n_faces) {
+  const RepairRecord& repair = record.repair;
+  const int tangled = repair.inverted + repair.degenerate;
+  const double share = static_cast<double>(repair.replaced) / n_faces;
+  summary.share_mean = (summary.share_mean * summary.steps + share) / (summary.steps + 1);
+  summary.share_max = std::max(summary.share_max, share);
+  summary.steps = record.step;
+  summary.time = record.time;
+  summary.steps_tangled += tangled > 0 ? 1 : 0;
+  summary.inverted += tangled;
+  summary.regions += static_cast<long long>(repair.regions.size());
+  summary.region_faces += repair.region_faces();
+  summary.region_faces_max = std::max(summary.region_faces_max, repair.region_faces_max());
+  summary.replaced += repair.replaced;
+  summary.escaped_max = std::max(summary.escaped_max, repair.escaped);
+  summary.retries += repair.retries();
+  summary.ms.move += record.move_ms;
+  summary.ms.detect += repair.detect_ms;
+  summary.ms.explore += repair.explore_ms;
+  summary.ms.triangulate += repair.triangulate_ms;
+  summary.ms.splice += repair.splice_ms;
+  summary.ms.quality += repair.quality_ms;
+  summary.ms.total += record.total_ms;
+}
+
+RunJson::RunJson(const std::filesystem::path& directory, const Scenario& scenario, const RunOptions& options)
+    : path_(directory / "run.json"), scenario_(scenario), options_(options), started_(now_utc()) {}
+
+void RunJson::write(const RunSummary& summary, RunState state) const {
+  Json json;
+  json["schema"] = "kinemesh-run-1";
+  json["version"] = KINEMESH_VERSION;
+  json["scenario"] = std::filesystem::absolute(scenario_.file).lexically_normal().string();
+  json["argv"] = options_.argv;
+  json["seed"] = scenario_.mesh.shape.empty() ? Json() : Json(scenario_.mesh.seed);
+  json["threads"] = summary.plan.threads;
+  json["strategy"] = summary.plan.strategy;
+  json["mesh"] = mesh_json(summary.plan);
+  json["steps_planned"] = summary.plan.steps;
+  json["end"] = summary.plan.end_time;
+  json["started"] = started_;
+  json["state"] = to_string(state);
+  if (state != RunState::Running) json["ended"] = now_utc();
+  json["steps"] = summary.steps;
+  json["time"] = summary.time;
+  if (summary.stopped) json["stopped"] = *summary.stopped;
+  json["totals"] = totals_json(summary);
+  json["ms"] = times_json(summary.ms);
+  // A name in another encoding than UTF-8 is no reason to lose the record of a run.
+  write_file_atomically(path_, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace kinemesh

@@ -1,0 +1,121 @@
+#include "sim/setup.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/build.h"
+#include "core/shapes.h"
+#include "core/validate.h"
+#include "motion/registry.h"
+#include "motion/restriction.h"
+#include "sim/toml_table.h"
+
+namespace kinemesh {
+namespace {
+
+MeshData shape_of(const MeshSpec& spec) {
+  try {
+    return make_shape(spec.shape, {.vertices = spec.vertices, .seed = spec.seed, .k = spec.k});
+  } catch (const InputError& error) {
+    throw error_at(spec.where, error.what());
+  }
+}
+
+ReadResult data_of(const MeshSpec& spec) {
+  return spec.file.empty() ? ReadResult{shape_of(spec), {}} : read_mesh(spec.file);
+}
+
+std::string name_of(const MeshSpec& spec) {
+  return spec.file.empty() ? "shape " + spec.shape : spec.file.string();
+}
+
+[[noreturn]] void refuse_invalid(const MeshSpec& spec, const Defect& defect) {
+  const bool is_tangled = defect.kind == DefectKind::InvertedFace || defect.kind == DefectKind::FlatFace;
+  throw InputError(name_of(spec), 0,
+                   defect.message() + (is_tangled ? "; `kinemesh untangle` makes a valid mesh of it" : ""));
+}
+
+Mesh mesh_of(const MeshSpec& spec, const MeshData& data) {
+  try {
+    Mesh mesh = build_mesh(data, {.frame = spec.frame, .fixed = {}});
+    if (const auto defect = validate(mesh)) refuse_invalid(spec, *defect);
+    return mesh;
+  } catch (const NoEmbedding& error) {
+    refuse_invalid(spec, error.defect());
+  }
+}
+
+void require_marker(const Mesh& mesh, const std::string& name, const Where& where) {
+  const auto& names = mesh.marker_names();
+  if (std::ranges::find(names, name) != names.end()) return;
+  throw error_at(where, "no marker '" + name + "' in the mesh" +
+                            (names.empty() ? ", which has none" : suggestion(name, names)));
+}
+
+// Terms of the motion; markers that are moved by one of them are added to `border` where it does not name
+// them.
+std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
+  std::vector<MotionTerm> terms;
+  for (const MotionSpec& motion : scenario.motions) {
+    terms.push_back(
+        {make_field(motion.field, motion.parameters), parse_restriction(motion.on, motion.blend)});
+    if (const auto* on = std::get_if<OnMarker>(&terms.back().where.on)) {
+      require_marker(mesh, on->name, motion.where_of("on"));
+      border.by_marker.emplace(on->name, BorderCondition::Moving);
+    }
+  }
+  return terms;
+}
+
+BorderConditions border_of(const Scenario& scenario, const Mesh& mesh) {
+  for (const auto& [marker, where] : scenario.border.marker_where)
+    if (marker != "default") require_marker(mesh, marker, where);
+  return scenario.border.conditions;
+}
+
+// "motion.1.on" is about that key of the second [[motion]], anything else about a marker in [border].
+Where where_of(const Scenario& scenario, std::string_view key) {
+  if (key.starts_with("motion.")) {
+    size_t index = 0;
+    const char* end = std::from_chars(key.data() + 7, key.data() + key.size(), index).ptr;
+    if (index < scenario.motions.size() && end != key.data() + key.size())
+      return scenario.motions[index].where_of(key.substr(static_cast<size_t>(end - key.data()) + 1));
+  }
+  const auto found = scenario.border.marker_where.find(key);
+  return found == scenario.border.marker_where.end() ? Where{scenario.file.string(), 0} : found->second;
+}
+
+// The first vertex of the convex hull that the border's conditions let move away from it.
+std::optional<int> moving_hull_vertex(const Mesh& mesh, const BorderConditions& border) {
+  const Freedom freedom(mesh, border);
+  for (int h = 0; h < 2 * mesh.n_edges(); ++h)
+    if (mesh.face_of(h) == none && freedom.of(mesh.to(h)) == BorderCondition::Moving) return mesh.to(h);
+  return std::nullopt;
+}
+
+void require_still_hull(const Scenario& scenario, const Mesh& mesh, const BorderConditions& border) {
+  if (!mesh.frame().empty()) return;
+  if (const auto vertex = moving_hull_vertex(mesh, border))
+    throw error_at(scenario.mesh.where, "frame = 0, but the outer border may move at vertex " +
+                                            std::to_string(mesh.user_vertex(*vertex)) +
+                                            "; a frame above 0 or a fixed border expected");
+}
+
+}  // namespace
+
+SetUp set_up(const Scenario& scenario) {
+  ReadResult read = data_of(scenario.mesh);
+  Mesh mesh = mesh_of(scenario.mesh, read.mesh);
+  BorderConditions border = border_of(scenario, mesh);
+  auto terms = terms_of(scenario, mesh, border);
+  try {
+    require_still_hull(scenario, mesh, border);
+    Motion motion(mesh, std::move(terms), std::move(border), scenario.time.integrator);
+    const Format format = scenario.mesh.file.empty() ? Format::Su2 : *format_of(scenario.mesh.file);
+    return {std::move(mesh), std::move(motion), format, std::move(read.notes)};
+  } catch (const ParameterError& error) {
+    throw error_at(where_of(scenario, error.key()), error.what());
+  }
+}
+
+}  // namespace kinemesh
