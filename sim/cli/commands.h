@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace kinemesh::cli {
 
@@ -21,6 +23,6 @@ void add_list(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
 void add_convert(CLI::App& program, Action& action);
 void add_untangle(CLI::App& program, Action& action);
-void add_run(CLI::App& program, Action& action);
+void add_run(CLI::App& program, Action& action, const std::vector<std::string>& argv);
 
 }  // namespace kinemesh::cli

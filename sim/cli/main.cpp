@@ -54,7 +54,7 @@ int run_program(int argc, char** argv) {
   program.footer(
       "Exit codes: 0 done; 1 the mesh is not valid, or no valid mesh exists, or the run had to stop;\n"
       "2 bad input or usage.");
-  add_run(program, action);
+  add_run(program, action, {argv, argv + argc});
   add_check(program, action);
   add_untangle(program, action);
   add_convert(program, action);

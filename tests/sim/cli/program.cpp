@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include <fcntl.h>
+#include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,9 +21,8 @@ fs::path make_folder(const char* kind) {
 }
 
 // In the child: nothing but calls that are safe after fork.
-[[noreturn]] void become_program(const char* folder, const char* out, const char* err, char** argv) {
+[[noreturn]] void become_program(const char* folder, const char* out, int err_file, char** argv) {
   const int out_file = open(out, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  const int err_file = open(err, O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (out_file >= 0 && err_file >= 0 && chdir(folder) == 0) {
     dup2(out_file, STDOUT_FILENO);
     dup2(err_file, STDERR_FILENO);
@@ -72,15 +72,17 @@ std::vector<std::string> ProgramTest::files() const {
   return result;
 }
 
-pid_t ProgramTest::start(const std::vector<std::string>& arguments) const {
+pid_t ProgramTest::start(const std::vector<std::string>& arguments, int err_file) const {
   std::vector<std::string> words{KINEMESH_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   const std::string out = capture_ / "out", err = capture_ / "err";
+  const int kept = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   const pid_t process = fork();
-  if (process == 0) become_program(folder_.c_str(), out.c_str(), err.c_str(), argv.data());
+  if (process == 0) become_program(folder_.c_str(), out.c_str(), err_file < 0 ? kept : err_file, argv.data());
+  close(kept);
   return process;
 }
 
@@ -93,6 +95,21 @@ Result ProgramTest::wait(pid_t process) const {
 
 Result ProgramTest::run(const std::vector<std::string>& arguments) const {
   return wait(start(arguments));
+}
+
+Result ProgramTest::run_on_terminal(const std::vector<std::string>& arguments) const {
+  int master = -1, slave = -1;
+  if (openpty(&master, &slave, nullptr, nullptr, nullptr) != 0) return {};
+  fcntl(master, F_SETFD, FD_CLOEXEC);
+  const pid_t process = start(arguments, slave);
+  close(slave);
+  std::string said;
+  char buffer[4096];
+  for (ssize_t n; (n = read(master, buffer, sizeof buffer)) > 0;) said.append(buffer, n);
+  close(master);
+  Result result = wait(process);
+  result.err = said;
+  return result;
 }
 
 void ProgramTest::expect_error(const Result& result, int code,

@@ -35,8 +35,11 @@ class ProgramTest : public ::testing::Test {
   // Runs `kinemesh ARGUMENTS` in the folder and waits for its end.
   Result run(const std::vector<std::string>& arguments) const;
 
-  pid_t start(const std::vector<std::string>& arguments) const;
+  pid_t start(const std::vector<std::string>& arguments, int err_file = -1) const;  // -1: kept for wait
   Result wait(pid_t process) const;
+
+  // Likewise, with a terminal as its stderr.
+  Result run_on_terminal(const std::vector<std::string>& arguments) const;
 
   // The contract of an error: this code, nothing on stdout, one line "kinemesh: ..." that has all of `words`.
   void expect_error(const Result& result, int code, std::initializer_list<const char*> words) const;

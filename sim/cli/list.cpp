@@ -1,0 +1,98 @@
+#include <fmt/core.h>
+
+#include <memory>
+#include <sstream>
+
+#include "core/io/mesh_io.h"
+#include "core/shapes.h"
+#include "motion/registry.h"
+#include "sim/cli/commands.h"
+#include "untangle/strategy.h"
+
+namespace kinemesh::cli {
+namespace {
+
+constexpr std::size_t page_width = 100;
+
+// `head`, then `text` from column `indent` on, broken between words.
+void print_entry(const std::string& head, std::size_t indent, const std::string& text) {
+  std::string line = fmt::format("{:<{}}", head, indent);
+  if (head.size() + 2 > indent) {
+    fmt::print("{}\n", head);
+    line = std::string(indent, ' ');
+  }
+  bool is_empty = true;  // of words
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (!is_empty && line.size() + 1 + word.size() > page_width) {
+      fmt::print("{}\n", line);
+      line = std::string(indent, ' ');
+      is_empty = true;
+    }
+    line += (is_empty ? "" : " ") + word;
+    is_empty = false;
+  }
+  fmt::print("{}\n", line);
+}
+
+const char* spelling(ParameterKind kind) {
+  switch (kind) {
+    case ParameterKind::Number:
+      return "number";
+    case ParameterKind::PositiveNumber:
+      return "number > 0";
+    case ParameterKind::NonNegativeNumber:
+      return "number >= 0";
+    case ParameterKind::Vector:
+      return "[x, y]";
+    case ParameterKind::Direction:
+      return "[x, y], not both 0";
+    case ParameterKind::Size:
+      return "[width, height] or one number for both";
+    case ParameterKind::Seed:
+      return "integer >= 0";
+    case ParameterKind::Text:
+      return "text";
+  }
+  return "";
+}
+
+void print_field(const FieldInfo& field) {
+  print_entry("  " + field.name, 16, field.description);
+  for (const ParameterInfo& parameter : field.parameters) {
+    const std::string otherwise = parameter.otherwise ? "; default " + to_string(*parameter.otherwise) : "";
+    print_entry("    " + parameter.name, 20,
+                fmt::format("{}; {}{}", parameter.meaning, spelling(parameter.kind), otherwise));
+  }
+}
+
+void print_format(const FormatInfo& format) {
+  const char* ways = format.can_read && format.can_write ? "read, written"
+                     : format.can_read                   ? "read"
+                                                         : "written";
+  print_entry("  " + std::string(format.extension), 16,
+              fmt::format("{}: {} ({})", format.name, format.description, ways));
+}
+
+int list() {
+  fmt::print("Fields: what a [[motion]] can be\n");
+  for (const FieldInfo& field : fields()) print_field(field);
+  fmt::print("\nStrategies: ways to repair a step\n");
+  for (const StrategyInfo& strategy : strategies())
+    print_entry("  " + strategy.name, 16, strategy.description);
+  fmt::print("\nShapes: meshes a scenario can start from\n");
+  for (const ShapeInfo& shape : shapes()) print_entry("  " + shape.name, 16, shape.description);
+  fmt::print("\nFormats: mesh files, by extension\n");
+  for (const FormatInfo& format : formats()) print_format(format);
+  return done;
+}
+
+}  // namespace
+
+void add_list(CLI::App& program, Action& action) {
+  CLI::App& command =
+      *program.add_subcommand("list", "Name the fields, strategies, shapes and formats there are");
+  command.callback([&action] { action = list; });
+}
+
+}  // namespace kinemesh::cli

@@ -1,0 +1,132 @@
+#include "sim/run.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "motion/registry.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/console.h"
+#include "sim/cli/progress.h"
+
+namespace kinemesh::cli {
+namespace {
+
+struct RunArguments {
+  std::string scenario;
+  std::vector<std::string> overrides;
+  RunOptions options;
+  std::string directory;
+  bool quiet = false;
+  bool verbose = false;
+
+  Verbosity verbosity() const {
+    return quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal;
+  }
+};
+
+template <class Value>
+void print_row(const char* name, const Value& value) {
+  fmt::print("{:<22}{}\n", name, value);
+}
+
+std::string describe(const MotionSpec& motion) {
+  std::string text = motion.field;
+  for (const auto& [name, value] : motion.parameters) text += fmt::format(" {} = {}", name, to_string(value));
+  text += " on " + motion.on;
+  if (motion.blend) text += fmt::format(", blended from {} to {}", (*motion.blend)[0], (*motion.blend)[1]);
+  return text;
+}
+
+void print_plan(const Scenario& scenario, const RunPlan& plan) {
+  const MeshSpec& mesh = scenario.mesh;
+  print_row("mesh", mesh.file.empty() ? "shape " + mesh.shape : mesh.file.string());
+  print_row("size", fmt::format("{} vertices, {} faces, {} more as padding", plan.vertices, plan.faces,
+                                plan.padding_faces));
+  print_row("minimum angle", fmt::format("{:.4g} degrees", plan.min_angle_deg));
+  print_row("markers",
+            plan.markers.empty() ? std::string("none") : fmt::format("{}", fmt::join(plan.markers, ", ")));
+  for (const MotionSpec& motion : scenario.motions) print_row("motion", describe(motion));
+  print_row("time", fmt::format("{} steps of {} to {}", plan.steps, scenario.time.dt, plan.end_time));
+  print_row("strategy", plan.strategy);
+  print_row("threads", plan.threads);
+  print_row("folder", plan.directory.string());
+}
+
+std::string in_phases(const PhaseTimes& ms, int steps) {
+  const double n = std::max(1, steps);
+  return fmt::format("move {:.3g}, detect {:.3g}, explore {:.3g}, triangulate {:.3g}, splice {:.3g}",
+                     ms.move / n, ms.detect / n, ms.explore / n, ms.triangulate / n, ms.splice / n);
+}
+
+void print_times(const RunSummary& summary, const RemeshProbe& probe) {
+  if (summary.steps == 0) return;
+  const double step_ms = summary.ms.total / summary.steps;
+  print_row("time of a step", fmt::format("{:.3g} ms ({})", step_ms, in_phases(summary.ms, summary.steps)));
+  if (const auto remesh_ms = probe.step_ms(); remesh_ms && step_ms > 0.0)
+    print_row("with a full re-mesh",
+              fmt::format("{:.3g} ms, {:.3g} times as long", *remesh_ms, *remesh_ms / step_ms));
+}
+
+void print_summary(const RunSummary& summary, const RemeshProbe& probe) {
+  print_row("steps", fmt::format("{} of {}, to t = {:.6g}", summary.steps, summary.plan.steps, summary.time));
+  print_row("steps that tangled", summary.steps_tangled);
+  print_row("inverted triangles", fmt::format("{} in {} regions, the largest of {}", summary.inverted,
+                                              summary.regions, summary.region_faces_max));
+  print_row("triangles replaced", summary.replaced);
+  print_row("share of the mesh", fmt::format("{:.3g} % in a step, at most {:.3g} %",
+                                             100.0 * summary.share_mean, 100.0 * summary.share_max));
+  if (summary.escaped_max > 0) print_row("escaped vertices", fmt::format("at most {}", summary.escaped_max));
+  if (summary.retries > 0) print_row("retries", summary.retries);
+  print_times(summary, probe);
+  fmt::print("files\n");
+  for (const auto& file : summary.files) fmt::print("  {}\n", file.string());
+}
+
+int run_scenario(const RunArguments& arguments) {
+  const Scenario scenario = load_scenario(arguments.scenario, arguments.overrides);
+  RunOptions options = arguments.options;
+  options.directory = arguments.directory;
+  Progress progress(arguments.verbosity());
+  const RunSummary summary = run(scenario, options, progress);
+  if (options.dry_run) {
+    print_plan(scenario, summary.plan);
+    return done;
+  }
+  if (!arguments.quiet) print_summary(summary, progress.probe());
+  if (!summary.stopped) return done;
+  std::fflush(stdout);
+  print_error(
+      fmt::format("{}: stopped after step {}: {}", arguments.scenario, summary.steps, *summary.stopped));
+  return not_valid;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, Action& action, const std::vector<std::string>& argv) {
+  const auto arguments = std::make_shared<RunArguments>();
+  RunOptions& options = arguments->options;
+  options.argv = argv;
+  CLI::App& command =
+      *program.add_subcommand("run", "Move a mesh through time and repair it after every step");
+  command.add_option("SCENARIO", arguments->scenario, "What moves and how: a TOML file")->required();
+  command.add_option("-o,--output", arguments->directory,
+                     "Folder for the results; default: the scenario's name");
+  command.add_option("--set", arguments->overrides, "Change the scenario: key=value, as in motion.0.rate=2")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command.add_flag("--dry-run", options.dry_run, "Say what would be done, and write nothing");
+  command.add_flag("--force", options.force, "Replace the run that is in the folder");
+  CLI::Option* quiet = command.add_flag("-q,--quiet", arguments->quiet, "Say nothing but errors");
+  command.add_flag("-v,--verbose", arguments->verbose, "Say more")->excludes(quiet);
+  command.add_option("--threads", options.threads, "Threads to use; default: all cores")
+      ->check(CLI::Range(1, 1024));
+  command.footer(
+      "Writes scenario.toml, run.json, steps.csv, regions.csv, mesh_NNNNNN.vtu, mesh.pvd and the last mesh.\n"
+      "Progress goes to stderr, the summary to stdout. Ctrl-C ends the run after the step it is in.");
+  command.callback([arguments, &action] { action = [arguments] { return run_scenario(*arguments); }; });
+}
+
+}  // namespace kinemesh::cli

@@ -1,0 +1,197 @@
+// `kinemesh untangle`: what is repaired, what stays as it was, and the report.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "program.h"
+
+namespace kinemesh::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class Untangle : public ProgramTest {
+ protected:
+  Json report(const std::string& name = "r.json") const {
+    const Json json = Json::parse(read_text(path(name)), nullptr, false);
+    EXPECT_FALSE(json.is_discarded()) << read_text(path(name));
+    return json;
+  }
+
+  std::vector<std::string> lines(const std::string& name) const { return lines_of(read_text(path(name))); }
+
+  // Vertices of `before` and `after` (OFF files as the program writes them) are the same lines, and so are
+  // the faces that are in no region of the report. Returns the union of the regions.
+  std::set<int> expect_same_outside(const std::string& before, const std::string& after,
+                                    const Json& json) const {
+    std::set<int> replaced;
+    for (const Json& region : json["regions"])
+      for (int face : region["faces"]) replaced.insert(face);
+    const std::vector<std::string> old_lines = lines(before), new_lines = lines(after);
+    EXPECT_EQ(old_lines.size(), new_lines.size());
+    if (old_lines.size() != new_lines.size()) return replaced;
+    const int n_faces = json["faces"], first = static_cast<int>(old_lines.size()) - n_faces;
+    for (int i = 0; i < static_cast<int>(old_lines.size()); ++i) {
+      if (replaced.count(i - first) > 0) continue;
+      EXPECT_EQ(old_lines[i], new_lines[i]) << "line " << i + 1;
+    }
+    return replaced;
+  }
+};
+
+TEST_F(Untangle, RepairsAndTouchesOnlyTheRegions) {
+  write("raw.off", grid_off(8, {{20, 4.3, 2.2}, {66, 2.4, 5.4}}));
+  ASSERT_EQ(run({"convert", "raw.off", "in.off"}).code, 0);
+  ASSERT_EQ(run({"check", "in.off"}).code, 1);
+  const Result result = run({"untangle", "in.off", "-o", "out.off", "--report", "r.json"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(run({"check", "out.off"}).code, 0);
+
+  const Json json = report();
+  EXPECT_EQ(json["schema"], "kinemesh-untangle-1");
+  EXPECT_EQ(json["strategy"], "global");
+  EXPECT_EQ(json["vertices"], 81);
+  EXPECT_EQ(json["faces"], 128);
+  EXPECT_GT(json["inverted_before"], 0);
+  EXPECT_EQ(json["inverted_after"], 0);
+  EXPECT_EQ(json["doubled_edges"], 0);
+  ASSERT_EQ(json["regions"].size(), 2u);
+  const std::set<int> replaced = expect_same_outside("in.off", "out.off", json);
+  EXPECT_GT(replaced.size(), 0u);
+  EXPECT_LT(replaced.size(), 64u);
+  for (const Json& region : json["regions"]) {
+    EXPECT_EQ(region["gamma"], 1);
+    EXPECT_EQ(region["retries"], 0);
+    EXPECT_EQ(region["explored"].get<size_t>(),
+              region["faces"].size() + region["padding_faces"].get<size_t>());
+    EXPECT_TRUE(std::is_sorted(region["faces"].begin(), region["faces"].end()));
+    EXPECT_NE(std::find(region["faces"].begin(), region["faces"].end(), region["seed"]),
+              region["faces"].end());
+  }
+}
+
+TEST_F(Untangle, ReportHasExactlyTheKeysOfItsSchema) {
+  write("in.off", grid_off(4, {{6, 2.4, 1.2}}));
+  ASSERT_EQ(run({"untangle", "in.off", "-o", "out.off", "--report", "r.json"}).code, 0);
+  const auto keys = [](const Json& json) {
+    std::set<std::string> result;
+    for (const auto& item : json.items()) result.insert(item.key());
+    return result;
+  };
+  const Json json = report();
+  EXPECT_EQ(keys(json),
+            (std::set<std::string>{"schema", "strategy", "vertices", "faces", "inverted_before",
+                                   "degenerate_before", "inverted_after", "doubled_edges", "regions"}));
+  ASSERT_FALSE(json["regions"].empty());
+  EXPECT_EQ(
+      keys(json["regions"][0]),
+      (std::set<std::string>{"seed", "faces", "padding_faces", "inverted", "components", "gamma_first_stable",
+                             "gamma", "explored", "crease_edges", "retries", "self_overlap"}));
+}
+
+TEST_F(Untangle, ValidMeshStaysAsItIs) {
+  write("raw.off", grid_off(5));
+  ASSERT_EQ(run({"convert", "raw.off", "in.off"}).code, 0);
+  const Result result = run({"untangle", "in.off", "-o", "out.off", "--report", "r.json"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(read_text(path("out.off")), read_text(path("in.off")));
+  EXPECT_EQ(report()["regions"], Json::array());
+  EXPECT_EQ(report()["inverted_before"], 0);
+}
+
+TEST_F(Untangle, FlatFacesAreRepairedAndCounted) {
+  write("in.off", grid_off(4, {{6, 1.5, 1.5}}));  // onto the middle of a diagonal's far end
+  const Json before = Json::parse(run({"check", "in.off", "--json"}).out);
+  ASSERT_GT(before["degenerate"].get<int>() + before["inverted"].get<int>(), 0);
+  EXPECT_EQ(run({"untangle", "in.off", "-o", "out.off", "--report", "r.json"}).code, 0);
+  EXPECT_EQ(report()["degenerate_before"], before["degenerate"]);
+  EXPECT_EQ(report()["inverted_before"], before["inverted"]);
+  EXPECT_EQ(run({"check", "out.off"}).code, 0);
+}
+
+TEST_F(Untangle, RemeshReplacesEverythingAsOneRegion) {
+  write("in.off", grid_off(6, {{16, 3.4, 2.3}}));
+  const Result result =
+      run({"untangle", "in.off", "-o", "out.off", "--strategy", "remesh", "--report", "r.json"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(run({"check", "out.off"}).code, 0);
+  const Json json = report();
+  EXPECT_EQ(json["strategy"], "remesh");
+  ASSERT_EQ(json["regions"].size(), 1u);
+  ASSERT_EQ(json["regions"][0]["faces"].size(), 72u);
+  for (int i = 0; i < 72; ++i) EXPECT_EQ(json["regions"][0]["faces"][i], i);
+}
+
+TEST_F(Untangle, MarkersAndLabelsSurvive) {
+  const char* const
+      su2 =  // vertex 4, the middle of a square of four, is pushed out of its fan towards the top
+      "NDIME= 2\nNELEM= 6\n5 0 1 4 0\n5 1 2 5 1\n5 1 5 4 2\n5 2 3 5 3\n5 3 0 4 4\n5 3 4 5 5\n"
+      "NPOIN= 6\n0 0 0\n4 0 1\n4 4 2\n0 4 3\n3.5 2 4\n3 2 5\n"
+      "NMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 4\n3 0 1\n3 1 2\n3 2 3\n3 3 0\n";
+  write("in.su2", su2);
+  ASSERT_EQ(run({"check", "in.su2"}).code, 1);
+  ASSERT_EQ(run({"untangle", "in.su2", "-o", "out.su2"}).code, 0);
+  const Result result = run({"check", "out.su2", "--json"});
+  EXPECT_EQ(result.code, 0) << result.out;
+  EXPECT_EQ(Json::parse(result.out)["markers"], Json::parse(R"([{"name": "wall", "edges": 4}])"));
+}
+
+TEST_F(Untangle, NoValidMeshIsSaidAndNothingIsWritten) {
+  write("coincident.off", grid_off(4, {{6, 2.0, 1.0}}));  // onto vertex 7
+  write("out.off", "precious\n");
+  expect_error(run({"untangle", "coincident.off", "-o", "out.off", "--report", "r.json"}), 1,
+               {"coincident.off: no valid mesh exists", "6", "7"});
+  write("cross.off", "OFF\n6 2 0\n0 0 0\n4 0 0\n0 4 0\n1 -1 0\n3 1 0\n1 1 0\n3 0 1 2\n3 3 4 5\n");
+  expect_error(run({"untangle", "cross.off", "-o", "out.off"}), 1,
+               {"cross.off: no valid mesh exists", "0-1"});
+  EXPECT_EQ(read_text(path("out.off")), "precious\n");
+  EXPECT_EQ(files(), (std::vector<std::string>{"coincident.off", "cross.off", "out.off"}));
+}
+
+TEST_F(Untangle, BadRequests) {
+  write("in.off", grid_off(4, {{6, 2.4, 1.2}}));
+  expect_error(run({"untangle", "in.off", "-o", "out.off", "--strategy", "magic"}), 2,
+               {"magic", "global", "remesh"});
+  expect_error(run({"untangle", "in.off", "-o", "out.off", "--seed", "3"}), 2, {"--seed"});
+  expect_error(run({"untangle", "absent.off", "-o", "out.off"}), 2, {"absent.off: "});
+  expect_error(run({"untangle", "in.off", "-o", "out.xyz"}), 2, {"out.xyz: ", ".xyz"});
+  expect_error(run({"untangle", "in.off", "-o", "absent/out.off"}), 2, {"absent/out.off: "});
+  EXPECT_EQ(files(), std::vector<std::string>{"in.off"});
+}
+
+// Hard tangles with known answers, where they are at hand.
+class SharedCase : public Untangle {};
+
+TEST_F(SharedCase, RegionsAreTheExpectedOnes) {
+  const fs::path folder = fs::path(KINEMESH_SHARED_DIR) / "cases";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  int n_cases = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".off") continue;
+    SCOPED_TRACE(entry.path().filename().string());
+    ++n_cases;
+    fs::path answer = entry.path();
+    const Json expected = Json::parse(read_text(answer.replace_extension(".json")))["global"];
+    ASSERT_EQ(run({"convert", entry.path().string(), "in.off"}).code, 0);
+    const Result result = run({"untangle", "in.off", "-o", "out.off", "--report", "r.json"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(run({"check", "out.off"}).code, 0);
+
+    const Json json = report();
+    EXPECT_EQ(expect_same_outside("in.off", "out.off", json), expected["triangles"].get<std::set<int>>());
+    int inverted = 0, components = 0;
+    for (const Json& region : json["regions"]) {
+      inverted += region["inverted"].get<int>();
+      components += region["components"].get<int>();
+    }
+    EXPECT_EQ(inverted, expected["inverted"]);
+    EXPECT_EQ(components, expected["components"]);
+    EXPECT_EQ(json["inverted_before"], expected["inverted"]);
+  }
+  EXPECT_GT(n_cases, 0);
+}
+
+}  // namespace
+}  // namespace kinemesh::testing
