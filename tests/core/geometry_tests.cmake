@@ -1,0 +1,4 @@
+set(KINEMESH_GEOMETRY_TESTS
+  exact_oracle.cpp
+  predicates_test.cpp
+  contacts_test.cpp)
