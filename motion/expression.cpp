@@ -3,6 +3,7 @@
 #include <muParser.h>
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace kinemesh {
@@ -56,8 +57,9 @@ void check(const std::string& key, const std::string& text) {
     parser.parser.Eval(n_results);
     if (n_results != 1) refuse(key, text, "more than one formula; the next starts", text.find(','));
   } catch (const mu::Parser::exception_type& error) {
-    const int at = error.GetPos();
-    refuse(key, text, reason(error), at < 0 ? text.size() : static_cast<std::size_t>(at));
+    const auto at =
+        static_cast<std::size_t>(error.GetPos());  // from 0; beyond the end, or -1, for what is missing
+    refuse(key, text, reason(error), std::min(at, text.size()));
   }
 }
 

@@ -10,7 +10,7 @@ using PhiloxCounter = std::array<std::uint32_t, 4>;
 using PhiloxKey = std::array<std::uint32_t, 2>;
 
 // Philox4x32-10 [Salmon 2011]: ten rounds of two 32 x 32 -> 64 bit products, the key raised by Weyl
-// constants. Agrees with the authors' known answers (tests/motion/test_noise.cpp).
+// constants. Agrees with the authors' known answers (tests/motion/noise_test.cpp).
 constexpr PhiloxCounter philox(PhiloxCounter c, PhiloxKey k) {
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t p0 = std::uint64_t{0xD2511F53u} * c[0];
