@@ -15,4 +15,5 @@ set(KINEMESH_IO_SOURCES
   io/vtu_array.cpp
   io/vtu_read.cpp
   io/vtu_write.cpp
-  io/writable.cpp)
+  io/writable.cpp
+  io/xml.cpp)
