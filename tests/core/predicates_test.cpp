@@ -167,6 +167,29 @@ TEST(Predicates, denormals_beside_normals) {
   });
 }
 
+// Products of the differences lose all but a few bits, so that only the bound for underflow saves the sign.
+TEST(Predicates, products_that_underflow) {
+  sweep(4000, 10, [](Random& random) {
+    const Point a{uniform(random), uniform(random)}, b{uniform(random), uniform(random)};
+    const Point c = nudged(a + 3.0 * uniform(random) * (b - a), random, 1000);
+    const Points p{a, b, c, {uniform(random), uniform(random)}};
+    return scaled(p, std::ldexp(1.0, -static_cast<int>(integer(random, 525, 545))));
+  });
+}
+
+// In-circle multiplies an underflown product by the far point's huge lift.
+TEST(Predicates, products_that_underflow_beside_a_far_point) {
+  sweep(4000, 11, [](Random& random) {
+    const auto point = [&](int exponent) {
+      return std::ldexp(1.0, exponent) * Point{uniform(random), uniform(random)};
+    };
+    const int near = -static_cast<int>(integer(random, 525, 545));
+    Points p{point(near), point(near), point(near), point(near)};
+    p[random() % 4] = point(static_cast<int>(integer(random, 0, 500)));
+    return p;
+  });
+}
+
 TEST(Predicates, any_finite_doubles) {
   sweep(1500, 8, [](Random& random) {
     Points p;
