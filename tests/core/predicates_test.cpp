@@ -190,6 +190,24 @@ TEST(Predicates, products_that_underflow_beside_a_far_point) {
   });
 }
 
+// The differences are rounded across the half of the smallest denormal: the computed determinant is positive,
+// the true one negative.
+TEST(Predicates, wrong_sign_from_one_denormal) {
+  constexpr double u = 0x1p-53;
+  const auto at = [](double x, double y) { return Point{x * 0x1p-537, y * 0x1p-538}; };
+  const Point a = at(1.0, 1.0), b = at(1.0 - u, 1.0 - 2.0 * u), c = at(-u * (1.0 + 0x1p-52), -0.6 * u);
+  ASSERT_GT((a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x), 0.0);
+  EXPECT_EQ(orientation(a, b, c), Orientation::Clockwise);
+  expect_right({a, b, c, {0.0, 0.0}});
+}
+
+// The minor of b and c underflows to zero, but weighs most by the lift of a.
+TEST(Predicates, wrong_side_from_an_underflow_times_a_lift) {
+  const Points p{Point{0x1p500, 0x1p500}, {0x1p-200, 0.0}, {0.0, 0x1p-880}, {0.0, 0.0}};
+  EXPECT_EQ(in_circle(p[0], p[1], p[2], p[3]), Side::Inside);
+  expect_right(p);
+}
+
 TEST(Predicates, any_finite_doubles) {
   sweep(1500, 8, [](Random& random) {
     Points p;
