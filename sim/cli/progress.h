@@ -40,7 +40,7 @@ class Progress : public RunObserver {
   bool has_colour_;
   bool is_line_open_ = false;
   RunPlan plan_;
-  RemeshProbe probe_{0};
+  RemeshProbe probe_;
   Clock::time_point start_;
   Clock::time_point last_shown_;
 };
