@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace kinemesh {
 namespace {
@@ -122,19 +124,29 @@ class Twins {
   std::string reason_;
 };
 
-// A sum that loses nothing to the order of its terms worth speaking of [Neumaier 1974]. long double: areas of
-// very large coordinates stay finite.
-class Sum {
+// Twice the signed area of many faces, compensated [Neumaier 1974] so that their order hardly matters. long
+// double: products of very large coordinates stay finite.
+class SignedArea {
  public:
+  void add(const Point& a, const Point& b, const Point& c) {
+    const long double ax = a.x, ay = a.y;
+    const long double p = (b.x - ax) * (c.y - ay), q = (b.y - ay) * (c.x - ax);
+    add(p - q);
+    magnitude_ += std::fabs(p) + std::fabs(q);
+  }
+  // Each term is off by less than 4 units in the last place of its products, and the sum by less than 2 more:
+  // what rounding alone could have made negative is not.
+  bool is_negative() const {
+    return sum_ + lost_ < -8 * std::numeric_limits<long double>::epsilon() * magnitude_;
+  }
+
+ private:
   void add(long double x) {
     const long double next = sum_ + x;
     lost_ += std::fabs(sum_) >= std::fabs(x) ? (sum_ - next) + x : (x - next) + sum_;
     sum_ = next;
   }
-  long double value() const { return sum_ + lost_; }
-
- private:
-  long double sum_ = 0, lost_ = 0;
+  long double sum_ = 0, lost_ = 0, magnitude_ = 0;
 };
 
 class Winder {
@@ -161,7 +173,7 @@ class Winder {
     for (std::size_t i = 0; i < part_.size(); ++i) walk_from(part_[i]);
     const bool mixed =
         std::any_of(part_.begin(), part_.end(), [&](int f) { return state_[f] == State::Turned; });
-    if (area_of_part() < 0) turn_part_over(mixed);
+    if (is_part_clockwise()) turn_part_over(mixed);
     if (mixed) count_turned_faces();
   }
 
@@ -183,18 +195,14 @@ class Winder {
     }
   }
 
-  long double area_of_part() const {
-    Sum sum;
+  bool is_part_clockwise() const {
+    SignedArea area;
     for (int face : part_) {
-      const long double area = twice_area(data_.triangles[face]);
-      sum.add(state_[face] == State::Turned ? -area : area);
+      const auto& [a, b, c] = data_.triangles[face];
+      const bool turned = state_[face] == State::Turned;
+      area.add(data_.points[a], data_.points[turned ? c : b], data_.points[turned ? b : c]);
     }
-    return sum.value();
-  }
-  long double twice_area(const Triangle& t) const {
-    const Point &a = data_.points[t[0]], &b = data_.points[t[1]], &c = data_.points[t[2]];
-    const long double ax = a.x, ay = a.y;
-    return (b.x - ax) * (c.y - ay) - (b.y - ay) * (c.x - ax);
+    return area.is_negative();
   }
 
   void turn_part_over(bool mixed) {

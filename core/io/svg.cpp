@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "core/io/text_buffer.h"
