@@ -1,0 +1,116 @@
+"""What the project says of itself, against itself. Needs nothing but Python's own library."""
+
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["KINEMESH_SOURCE_DIR"])
+PROGRAM = os.environ["KINEMESH_PROGRAM"]
+
+# docs/architecture.md: who may include whom.
+MAY_INCLUDE = {
+    "core": {"core"},
+    "motion": {"core", "motion"},
+    "untangle": {"core", "untangle"},
+    "sim": {"core", "motion", "untangle", "sim"},
+}
+
+
+def sources(folder):
+    return [path for path in sorted((ROOT / folder).rglob("*")) if path.suffix in (".h", ".cpp")]
+
+
+def read(path):
+    return path.read_text(encoding="utf-8")
+
+
+def blocks(document, language):
+    return re.findall(rf"^```{language}\n(.*?)^```$", read(ROOT / document), re.MULTILINE | re.DOTALL)
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+class IncludeArrows(unittest.TestCase):
+    def test_folders_include_only_whom_they_may_know(self):
+        for folder, allowed in MAY_INCLUDE.items():
+            paths = sources(folder)
+            self.assertGreater(len(paths), 5, f"{folder}/ has hardly any sources")
+            for path in paths:
+                for included in re.findall(r'^\s*#\s*include\s*"(\w+)/', read(path), re.MULTILINE):
+                    self.assertIn(included, allowed, f"{path.relative_to(ROOT)} includes from {included}/")
+
+    def test_cgal_stays_behind_sources(self):
+        for folder in MAY_INCLUDE:
+            for path in sources(folder):
+                if path.suffix == ".h":
+                    self.assertNotRegex(read(path), r"#\s*include\s*<CGAL/", path.relative_to(ROOT))
+
+
+class References(unittest.TestCase):
+    """[Author 1999, §2] in a comment or a page is @...{author1999, in docs/references.bib."""
+
+    def setUp(self):
+        self.entries = set(re.findall(r"^@\w+\{(\w+),", read(ROOT / "docs/references.bib"), re.MULTILINE))
+        files = [path for folder in (*MAY_INCLUDE, "tests", "bench") for path in sources(folder)]
+        files += sorted((ROOT / "docs").glob("*.md")) + [ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+        self.cited = {}
+        for path in files:
+            for author, year in re.findall(r"\[([A-Z][A-Za-z]+)\s+(?://\s*)?([12]\d{3})[,\]]", read(path)):
+                self.cited.setdefault(author.lower() + year, path.relative_to(ROOT))
+
+    def test_each_key_has_an_entry(self):
+        self.assertIn("agarwal2008", self.cited)
+        for key, path in self.cited.items():
+            self.assertIn(key, self.entries, f"cited in {path}")
+
+    def test_each_entry_is_cited(self):
+        self.assertEqual(self.entries - set(self.cited), set())
+
+
+class Readme(unittest.TestCase):
+    def test_code_is_the_example_that_is_built_and_run(self):
+        self.assertEqual(blocks("README.md", "cpp"), [read(ROOT / "examples/embed.cpp")])
+
+    def test_links_lead_somewhere(self):
+        for document in ("README.md", "CONTRIBUTING.md", *(f"docs/{p.name}" for p in (ROOT / "docs").glob("*.md"))):
+            for target in re.findall(r"\]\((?!https?:)([^)#]+)", read(ROOT / document)):
+                self.assertTrue(((ROOT / document).parent / target).exists(), f"{document} links to {target}")
+
+
+class Scenarios(unittest.TestCase):
+    def test_documented_scenarios_are_accepted(self):
+        documented = blocks("docs/scenarios.md", "toml") + blocks("README.md", "toml")
+        self.assertGreater(len(documented), 1)
+        for text in documented:
+            with tempfile.TemporaryDirectory() as folder:
+                scenario = Path(folder) / "scenario.toml"
+                scenario.write_text(text, encoding="utf-8")
+                result = run("run", scenario, "-o", Path(folder) / "out", "--dry-run")
+                self.assertEqual(result.returncode, 0, result.stderr + text)
+
+    def test_everything_the_program_lists_is_documented(self):
+        listed = run("list")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        pages = read(ROOT / "docs/scenarios.md") + read(ROOT / "docs/formats.md")
+        names = re.findall(r"^ {2,4}([.\w-]+)(?: |$)", listed.stdout, re.MULTILINE)
+        self.assertGreater(len(names), 20)
+        for name in names:
+            self.assertIn(f"`{name}", pages)
+
+
+class CommandLine(unittest.TestCase):
+    def test_readme_lists_exactly_the_commands_there_are(self):
+        shown = run("--help").stdout.partition("Subcommands:")[2]
+        commands = re.findall(r"^  ([a-z]+) ", shown, re.MULTILINE)
+        self.assertGreater(len(commands), 3, shown)
+        self.assertEqual(sorted(re.findall(r"^\| `kinemesh ([a-z]+)", read(ROOT / "README.md"), re.MULTILINE)),
+                         sorted(commands))
+
+
+if __name__ == "__main__":
+    unittest.main()
