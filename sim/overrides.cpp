@@ -57,7 +57,9 @@ size_t list_index(const toml::key& key, size_t size, const std::string& path, co
 }
 
 void merge_list(toml::array& target, toml::table& change, const std::string& path, const std::string& name) {
-  auto& [key, node] = *change.begin();
+  const auto only = change.begin();
+  const toml::key& key = only->first;
+  toml::node& node = only->second;
   const size_t index = list_index(key, target.size(), path, name);
   const std::string here = path + "." + std::string(key.str());
   if (!is_path(node)) {
@@ -71,7 +73,9 @@ void merge_list(toml::array& target, toml::table& change, const std::string& pat
 }
 
 void merge_table(toml::table& target, toml::table& change, const std::string& path, const std::string& name) {
-  auto& [key, node] = *change.begin();
+  const auto only = change.begin();
+  const toml::key& key = only->first;
+  toml::node& node = only->second;
   const std::string here = path.empty() ? std::string(key.str()) : path + "." + std::string(key.str());
   toml::node* existing = target.get(key.str());
   if (!existing || !is_path(node)) {

@@ -1,5 +1,7 @@
 // The scenario written out.
+#include <fmt/format.h>
 #include <toml++/toml.h>
+
 #include <sstream>
 
 #include "sim/scenario.h"
@@ -19,32 +21,53 @@ const char* to_string(BorderCondition condition) {
   return "fixed";
 }
 
-toml::array as_array(std::span<const double> numbers) {
-  toml::array list;
-  for (const double number : numbers) list.push_back(number);
-  return list;
+// The shortest decimal that reads back as the same number, and reads as a floating-point one.
+std::string to_text(double number) {
+  const std::string text = fmt::format("{}", number);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string to_text(std::span<const double> numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : ", ") + to_text(number);
+  return "[" + text + "]";
+}
+
+// Quotes and escapes as a text needs them.
+std::string to_text(const std::string& text) {
+  std::ostringstream out;
+  out << toml::value<std::string>(text);
+  return out.str();
+}
+
+std::string to_text(std::int64_t number) {
+  return std::to_string(number);
+}
+
+std::string to_text(bool value) {
+  return value ? "true" : "false";
+}
+
+// A key that is not of letters, digits, - and _ alone needs quotes.
+std::string key_text(const std::string& key) {
+  std::ostringstream out;
+  out << toml::table{{key, 0}};
+  return out.str().substr(0, out.str().rfind(" = "));
 }
 
 class Writer {
  public:
-  void header(const char* text) { out_ << (out_.tellp() > 0 ? "\n" : "") << text << "\n"; }
-  void line(const std::string& key, const std::string& text) { write(key, toml::value<std::string>(text)); }
-  void line(const std::string& key, double number) { write(key, toml::value<double>(number)); }
-  void line(const std::string& key, std::int64_t number) { write(key, toml::value<std::int64_t>(number)); }
-  void line(const std::string& key, bool value) { write(key, toml::value<bool>(value)); }
-  void line(const std::string& key, std::span<const double> numbers) { write(key, as_array(numbers)); }
-  std::string text() const { return out_.str(); }
+  void header(const char* text) { text_ += (text_.empty() ? "" : "\n") + std::string(text) + "\n"; }
 
- private:
-  // A key of other characters than letters, digits, - and _ needs quotes: let the library decide.
   template <class Value>
-  void write(const std::string& key, const Value& value) {
-    toml::table pair;
-    pair.insert(key, value);
-    out_ << pair << "\n";
+  void line(const std::string& key, const Value& value) {
+    text_ += key_text(key) + " = " + to_text(value) + "\n";
   }
 
-  std::ostringstream out_;
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
 };
 
 void write(Writer& out, const MeshSpec& mesh) {
@@ -66,7 +89,7 @@ void write(Writer& out, const MotionSpec& motion) {
   for (const auto& [key, value] : motion.parameters)
     std::visit([&out, &key = key](const auto& v) { out.line(key, v); }, value);
   out.line("on", motion.on);
-  if (motion.blend) out.line("blend", *motion.blend);
+  if (motion.blend) out.line("blend", std::span<const double>(*motion.blend));
 }
 
 void write(Writer& out, const BorderSpec& border) {

@@ -90,7 +90,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
   if (candidates.empty()) return "";
   const auto distance = [&](const std::string& candidate) { return edit_distance(word, candidate); };
   const auto nearest = std::ranges::min_element(candidates, {}, distance);
-  if (distance(*nearest) <= std::max<int>(1, static_cast<int>(word.size()) / 3))
+  if (distance(*nearest) <= std::max<int>(1, (static_cast<int>(word.size()) + 1) / 3))
     return ", did you mean '" + *nearest + "'?";
   return ", expected one of: " + joined(candidates);
 }
@@ -182,7 +182,9 @@ std::vector<std::string> TomlTable::keys() const {
 }
 
 Where TomlTable::where() const {
-  return where_of(table_);
+  // A table that an override made has no place of its own.
+  const Where where = where_of(table_);
+  return where.file.empty() && !table_.empty() ? where_of(table_.begin()->first.source()) : where;
 }
 
 Where TomlTable::where(std::string_view key) const {

@@ -1,0 +1,58 @@
+// Meshes, folders and tables the tests of sim/ share.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/mesh.h"
+#include "core/mesh_data.h"
+
+namespace kinemesh::test {
+
+// n x n squares on [0,1]^2, each cut by its rising diagonal; markers bottom, right, top, left. Vertex (i, j)
+// has the number j (n + 1) + i.
+MeshData grid(int n);
+
+// The same with the squares whose lower left corner is in [from, to) x [from, to) left out: a hole with
+// marker "hole".
+MeshData grid_with_hole(int n, int from, int to);
+
+// Everything about a mesh that a step may change, for bitwise comparison.
+struct Snapshot {
+  std::vector<Point> positions;
+  std::vector<Triangle> triangles;
+  std::vector<int> labels;
+  std::vector<int> halfedges;  // next, to and face of each
+  bool operator==(const Snapshot&) const = default;
+};
+Snapshot snapshot(const Mesh& mesh);
+
+// Removed with all its files at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+  void write(const std::string& name, const std::string& content) const;
+  std::vector<std::string> names() const;  // of the files, sorted
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string content_of(const std::filesystem::path& file);
+
+struct Csv {
+  std::string header;
+  std::vector<std::map<std::string, std::string>> rows;
+  double sum(const std::string& column) const;
+  double number(size_t row, const std::string& column) const { return std::stod(rows.at(row).at(column)); }
+};
+Csv read_csv(const std::filesystem::path& file);
+
+}  // namespace kinemesh::test
