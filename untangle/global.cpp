@@ -57,16 +57,18 @@ std::optional<Defect> GlobalUntangling::remesh_all(const Mesh& mesh, const Repai
 std::optional<Defect> GlobalUntangling::remesh(const Mesh& mesh, const RepairOptions& options, int region) {
   if (regions_.faces(region).empty()) return std::nullopt;  // absorbed
   auto& work = work_[region];
-  auto result = mesher_.run(mesh, options, regions_, region);
+  auto result = mesher_.run(mesh, regions_, region);
   while (result == RegionMesher::Result::NotSimple) {
     ++work.retries;
     enlarge(mesh, region);
-    result = mesher_.run(mesh, options, regions_, region);
+    result = mesher_.run(mesh, regions_, region);
   }
   if (result == RegionMesher::Result::NoMesh) return mesher_.defect();
-  std::swap(work.patch, mesher_.patch());
+  auto finished = finish(mesh, regions_, region, std::move(mesher_.new_faces()), options.allow_escaped);
+  if (finished.defect) return finished.defect;
+  work.patch = std::move(finished.patch);
+  work.escaped = finished.escaped;
   work.border_edges = mesher_.border_edges();
-  work.escaped = mesher_.escaped();
   work.centre = mesher_.centre();
   return std::nullopt;
 }

@@ -10,29 +10,20 @@
 
 namespace kinemesh {
 
-RegionMesher::Result RegionMesher::run(const Mesh& mesh, const RepairOptions& options, const FaceSets& sets,
-                                       int set) {
+RegionMesher::Result RegionMesher::run(const Mesh& mesh, const FaceSets& sets, int set) {
   mesh_ = &mesh;
-  options_ = options;
   collect(sets, set);
   if (const auto contact = triangulator_.triangulate(points_, edges_, triangulation_)) {
     auto defect = verdict(*contact);
-    return defect ? fail(std::move(*defect)) : Result::NotSimple;
+    if (!defect) return Result::NotSimple;
+    defect_ = std::move(*defect);
+    return Result::NoMesh;
   }
   if (!select_inside(static_cast<int>(sets.faces(set).size()))) {
     return find_lost_vertex() ? Result::NoMesh : Result::NotSimple;
   }
-  if (!flood_labels() || !count_escaped()) return Result::NoMesh;
-  order_new_faces();
-  assign_slots(sets.faces(set));
-  connect();
-  certify();
+  convert();
   return Result::Done;
-}
-
-RegionMesher::Result RegionMesher::fail(Defect defect) {
-  defect_ = std::move(defect);
-  return Result::NoMesh;
 }
 
 Point RegionMesher::centre() const {
@@ -51,22 +42,21 @@ void RegionMesher::collect(const FaceSets& sets, int set) {
   edges_.clear();
   border_halfedges_.clear();
   inner_constraints_.clear();
-  patch_.edges.clear();
+  std::vector<int> inner;
   for (const int face : sets.faces(set)) {
     for (const int side : mesh_->sides(face)) {
       const int across = mesh_->face_of(Mesh::opposite(side));
+      const int constraint = mesh_->constraint_of(Mesh::edge_of(side));
       if (across == none || sets.set_of(across) != set)
         border_halfedges_.push_back(side);
-      else if (side < Mesh::opposite(side))
-        patch_.edges.push_back(Mesh::edge_of(side));
+      else if (constraint != none && side < Mesh::opposite(side))
+        inner.push_back(side);
     }
   }
-  std::sort(patch_.edges.begin(), patch_.edges.end());
   for (const int side : border_halfedges_) add_edge(side);
-  for (const int edge : patch_.edges) {
-    if (mesh_->constraint_of(edge) == none) continue;
-    inner_constraints_.push_back(mesh_->constraint_of(edge));
-    add_edge(2 * edge);
+  for (const int side : inner) {
+    add_edge(side);
+    inner_constraints_.push_back(mesh_->constraint_of(Mesh::edge_of(side)));
   }
 }
 
@@ -141,157 +131,27 @@ bool RegionMesher::select_inside(int n_expected) {
 bool RegionMesher::find_lost_vertex() {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!is_outside_hull(*mesh_, points_[i])) continue;
-    fail({.kind = DefectKind::LeftDomain, .vertices = {user(static_cast<int>(i))}, .where = points_[i]});
+    defect_ =
+        Defect{.kind = DefectKind::LeftDomain, .vertices = {user(static_cast<int>(i))}, .where = points_[i]};
     return true;
   }
   return false;
 }
 
-// --- labels ---
-
-bool RegionMesher::set_label(int triangle, int label, int source) {
-  if (source_[triangle] != none) {
-    if (label_[triangle] == label) return true;
-    const auto& corner = points_[triangulation_.triangles[triangle][0]];
-    fail({.kind = DefectKind::LabelsMeet,
-          .edges = {user_edge(source_[triangle]), user_edge(source)},
-          .where = corner});
-    return false;
-  }
-  label_[triangle] = label;
-  source_[triangle] = source;
-  pending_.push_back(triangle);
-  return true;
-}
-
-// Across side `side`, into the next triangle of the region.
-bool RegionMesher::spread_label(int triangle, int side) {
-  const int edge = triangulation_.edges[triangle][side];
-  const int across = triangulation_.neighbours[triangle][side];
-  if (edge == none) return set_label(across, label_[triangle], source_[triangle]);
-  if (edge < border_edges()) return true;
-  const auto& constraint = mesh_->constraints()[inner_constraints_[edge - border_edges()]];
-  const bool on_left = vertices_[triangulation_.triangles[triangle][side]] == constraint.from;
-  return set_label(triangle, on_left ? constraint.left : constraint.right, edge) &&
-         set_label(across, on_left ? constraint.right : constraint.left, edge);
-}
-
-bool RegionMesher::flood_labels() {
-  label_.resize(triangulation_.triangles.size());
-  source_.assign(triangulation_.triangles.size(), none);
-  pending_.clear();
-  for (const int t : inside_) {
-    for (const int edge : triangulation_.edges[t]) {
-      if (edge == none || edge >= border_edges()) continue;
-      if (!set_label(t, mesh_->label(mesh_->face_of(border_halfedges_[edge])), edge)) return false;
-    }
-  }
-  while (!pending_.empty()) {
-    const int t = pending_.back();
-    pending_.pop_back();
-    for (int k = 0; k < 3; ++k) {
-      if (!spread_label(t, k)) return false;
-    }
-  }
-  return true;
-}
-
-bool RegionMesher::count_escaped() {
-  std::vector<bool> away(points_.size(), false);
-  for (const int t : inside_) {
-    for (const int i : triangulation_.triangles[t]) {
-      const int v = vertices_[i];
-      away[i] = !mesh_->is_constrained(v) && mesh_->home_label(v) != label_[t];
-    }
-  }
-  escaped_ = static_cast<int>(std::count(away.begin(), away.end(), true));
-  if (escaped_ == 0 || options_.allow_escaped) return true;
-  const auto first = std::find(away.begin(), away.end(), true) - away.begin();
-  fail({.kind = DefectKind::Escaped, .vertices = {user(static_cast<int>(first))}, .where = points_[first]});
-  return false;
-}
-
-// --- the patch ---
-
-// Sorted by label and corners: independent of how the triangulation was found, and close to memory order.
-void RegionMesher::order_new_faces() {
+void RegionMesher::convert() {
+  number_.assign(triangulation_.triangles.size(), none);
+  for (std::size_t i = 0; i < inside_.size(); ++i) number_[inside_[i]] = static_cast<int>(i);
   new_faces_.clear();
   for (const int t : inside_) {
-    const auto& local = triangulation_.triangles[t];
-    const int shift = static_cast<int>(std::min_element(local.begin(), local.end()) - local.begin());
-    Triangle corners;
-    for (int k = 0; k < 3; ++k) corners[k] = vertices_[local[(k + shift) % 3]];
-    new_faces_.push_back({corners, t, shift, label_[t]});
-  }
-  std::sort(new_faces_.begin(), new_faces_.end(), [](const NewFace& a, const NewFace& b) {
-    return std::tie(a.label, a.corners) < std::tie(b.label, b.corners);
-  });
-  new_face_.assign(triangulation_.triangles.size(), none);
-  for (int i = 0; i < static_cast<int>(new_faces_.size()); ++i) new_face_[new_faces_[i].triangle] = i;
-}
-
-// A new face takes the place of one with its label, so that the numbers of the user's faces stay where they
-// are. Only when vertices have escaped are some left over, and these change their label.
-void RegionMesher::assign_slots(const std::vector<int>& faces) {
-  std::vector<int> slots = faces;
-  std::sort(slots.begin(), slots.end(),
-            [&](int f, int g) { return std::pair(mesh_->label(f), f) < std::pair(mesh_->label(g), g); });
-  const int n = static_cast<int>(slots.size());
-  std::vector<int> spare_slots, spare_faces;
-  patch_.faces.assign(n, none);
-  for (int i = 0, j = 0; i < n || j < n;) {
-    if (j == n || (i < n && mesh_->label(slots[i]) < new_faces_[j].label))
-      spare_slots.push_back(slots[i++]);
-    else if (i == n || new_faces_[j].label < mesh_->label(slots[i]))
-      spare_faces.push_back(j++);
-    else
-      patch_.faces[j++] = slots[i++];
-  }
-  for (std::size_t i = 0; i < spare_faces.size(); ++i) patch_.faces[spare_faces[i]] = spare_slots[i];
-}
-
-// Every side gets its half-edge: on the border the one that stays, inside the next of the edges set free.
-void RegionMesher::connect() {
-  const int n = static_cast<int>(new_faces_.size());
-  patch_.triangles.clear();
-  patch_.labels.clear();
-  patch_.constraints.clear();
-  patch_.halfedges.assign(n, {none, none, none});
-  const auto side_of = [&](int face, int k) -> int& {
-    return patch_.halfedges[face][(k - new_faces_[face].shift + 3) % 3];
-  };
-  for (int i = 0; i < n; ++i) {
-    const auto& face = new_faces_[i];
-    patch_.triangles.push_back(face.corners);
-    patch_.labels.push_back(face.label);
-    for (int j = 0; j < 3; ++j) {
-      const int k = (j + face.shift) % 3;
-      const int edge = triangulation_.edges[face.triangle][k];
-      if (side_of(i, k) != none) continue;
-      if (edge != none && edge < border_edges()) {
-        side_of(i, k) = border_halfedges_[edge];
-        continue;
-      }
-      if (patch_.constraints.size() == patch_.edges.size()) throw std::logic_error("a region gained an edge");
-      const int free_edge = patch_.edges[patch_.constraints.size()];
-      patch_.constraints.push_back(edge == none ? none : inner_constraints_[edge - border_edges()]);
-      const int across = triangulation_.neighbours[face.triangle][k];
-      const auto& beyond = triangulation_.neighbours[across];
-      const int back =
-          static_cast<int>(std::find(beyond.begin(), beyond.end(), face.triangle) - beyond.begin());
-      side_of(i, k) = 2 * free_edge;
-      side_of(new_face_[across], back) = 2 * free_edge + 1;
+    Triangle corners, neighbours, constraints{none, none, none};
+    for (int k = 0; k < 3; ++k) {
+      const int edge = triangulation_.edges[t][k];
+      const bool on_border = edge != none && edge < border_edges();
+      corners[k] = vertices_[triangulation_.triangles[t][k]];
+      neighbours[k] = on_border ? ~border_halfedges_[edge] : number_[triangulation_.neighbours[t][k]];
+      if (edge != none && !on_border) constraints[k] = inner_constraints_[edge - border_edges()];
     }
-  }
-  if (patch_.constraints.size() != patch_.edges.size()) throw std::logic_error("a region lost an edge");
-}
-
-void RegionMesher::certify() const {
-  for (const auto& [a, b, c] : patch_.triangles) {
-    if (orientation(mesh_->position(a), mesh_->position(b), mesh_->position(c)) !=
-        Orientation::CounterClockwise) {
-      throw std::logic_error("a new face is not upright");
-    }
+    new_faces_.add(corners, neighbours, constraints);
   }
 }
 

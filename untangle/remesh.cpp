@@ -24,7 +24,7 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   everything_.reset(mesh.n_faces());
   const int all = everything_.open();
   for (int face = 0; face < mesh.n_faces(); ++face) everything_.add(face, all);
-  const auto result = mesher_.run(mesh, options, everything_, all);
+  const auto result = mesher_.run(mesh, everything_, all);
   record.triangulate_ms = mesher_.triangulator_ms() - cgal_before;
   if (result == RegionMesher::Result::NoMesh) {
     outcome.defect = mesher_.defect();
@@ -33,14 +33,19 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   // The border of the whole is convex, so only a vertex outside could make it fail, and that is NoMesh.
   if (result == RegionMesher::Result::NotSimple)
     throw std::logic_error("the whole mesh has no simple border");
+  auto finished = finish(mesh, everything_, all, std::move(mesher_.new_faces()), options.allow_escaped);
+  if (finished.defect) {
+    outcome.defect = std::move(finished.defect);
+    return outcome;
+  }
 
   auto line = describe_region(mesh, everything_.faces(all), tangles, components);
   line.border_edges = mesher_.border_edges();
   line.centre = mesher_.centre();
   record.replaced = mesh.n_faces();
-  record.escaped = mesher_.escaped();
+  record.escaped = finished.escaped;
   record.regions.push_back(std::move(line));
-  mesh.splice(mesher_.patch());
+  mesh.splice(finished.patch);
   record.splice_ms = working.milliseconds() - record.triangulate_ms;
   return outcome;
 }

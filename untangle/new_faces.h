@@ -1,0 +1,42 @@
+// The faces that are to take a region's place, between their triangulation and the splice.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/defect.h"
+#include "core/mesh.h"
+#include "untangle/face_sets.h"
+
+namespace kinemesh {
+
+// Side k of a triangle runs from corner k to corner k + 1.
+struct NewFaces {
+  std::vector<Triangle> triangles;   // vertices of the mesh, counter-clockwise
+  std::vector<Triangle> neighbours;  // across side k: number of another triangle, or ~h where side k lies
+                                     // along the half-edge h of the region's border, inside the region
+  std::vector<Triangle>
+      constraints;          // of side k: number of a constraint, or none; of no meaning on the border
+  std::vector<int> labels;  // per triangle; set by finish
+
+  int size() const { return static_cast<int>(triangles.size()); }
+  void clear();
+  void add(const Triangle& corners, const Triangle& neighbours_of, const Triangle& constraints_of);
+};
+
+struct Finished {
+  Patch patch;
+  int escaped = 0;               // vertices in another label than their home
+  std::optional<Defect> defect;  // then there is no patch
+};
+
+// Decides what the triangulation leaves open. Labels spread from the faces inside the region's border over
+// the new ones and change at constraints only; where two of them meet the defect names the edges they came
+// from. A vertex on no constrained edge that came to lie in another label than its home has escaped, a defect
+// unless it is allowed. A new face takes the place of one with its label, so that the user's numbers stay
+// where they are; only when vertices have escaped do slots change their label. The patch does not depend on
+// the order of the new faces. Checks the certificate: as many faces as were in the set, as many edges, each
+// face upright. Throws std::logic_error otherwise, which is a bug of ours.
+Finished finish(const Mesh& mesh, const FaceSets& sets, int set, NewFaces faces, bool allow_escaped);
+
+}  // namespace kinemesh
