@@ -96,10 +96,12 @@ std::string names_of(const Items& items) {
 }
 
 void refuse_unknown(const FieldInfo& info, const FieldParameters& given) {
-  for (const auto& [key, value] : given)
+  for (const auto& [name, value] : given) {
+    const std::string& key = name;  // a lambda cannot capture a binding in clang 14
     if (std::none_of(info.parameters.begin(), info.parameters.end(),
                      [&](const auto& p) { return p.name == key; }))
       refuse(info, key, "unknown parameter " + key + ", expected " + names_of(info.parameters));
+  }
 }
 
 }  // namespace
