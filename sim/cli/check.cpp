@@ -26,7 +26,7 @@ void print_culprits(const CheckReport& report) {
   };
   const auto unnamed =
       report.inverted - named(DefectKind::InvertedFace) + report.degenerate - named(DefectKind::FlatFace);
-  if (unnamed > 0) fmt::print("  and {} more faces\n", unnamed);
+  if (unnamed > 0) fmt::print("  and {} more inverted or flat faces\n", unnamed);
 }
 
 void print_table(const std::string& path, const CheckReport& report) {
@@ -99,9 +99,8 @@ void add_check(CLI::App& program, Action& action) {
   add_mesh_input(command, arguments->mesh);
   command.add_flag("--json", arguments->json, "Print one JSON object instead of a table");
   command.footer(
-      "Exit code 1 if the mesh is not valid: inverted or flat faces, borders that cross or touch, parts "
-      "that\n"
-      "overlap, or a marker's edge that no face has.\n"
+      "Exit code 1 if the mesh is not valid: inverted or flat faces, borders that cross or touch, parts\n"
+      "that overlap, or a marker's edge that no face has.\n"
       "--json: {\"schema\": \"kinemesh-check-1\", \"mesh\", \"valid\", \"vertices\", \"isolated_vertices\", "
       "\"faces\",\n"
       "\"inverted\", \"degenerate\", \"inverted_components\", \"connected_parts\", \"border_loops\",\n"

@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 #include <sstream>
@@ -66,6 +67,12 @@ void print_field(const FieldInfo& field) {
   }
 }
 
+void print_shape(const ShapeInfo& shape) {
+  print_entry("  " + shape.name, 16,
+              fmt::format("{}; markers {}; at least {} vertices", shape.description,
+                          fmt::join(shape.markers, ", "), shape.min_vertices));
+}
+
 void print_format(const FormatInfo& format) {
   const char* ways = format.can_read && format.can_write ? "read, written"
                      : format.can_read                   ? "read"
@@ -81,7 +88,7 @@ int list() {
   for (const StrategyInfo& strategy : strategies())
     print_entry("  " + strategy.name, 16, strategy.description);
   fmt::print("\nShapes: meshes a scenario can start from\n");
-  for (const ShapeInfo& shape : shapes()) print_entry("  " + shape.name, 16, shape.description);
+  for (const ShapeInfo& shape : shapes()) print_shape(shape);
   fmt::print("\nFormats: mesh files, by extension\n");
   for (const FormatInfo& format : formats()) print_format(format);
   return done;

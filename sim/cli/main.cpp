@@ -18,13 +18,30 @@ void silence_openmesh() {
   omerr().disable();
 }
 
+std::string command_names(const CLI::App& program) {
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands({})) names += " " + command->get_name();
+  return names;
+}
+
+// The mistake in a sentence, and whose help tells more.
+void explain(const CLI::App& program, const std::string& mistake) {
+  const auto chosen = program.get_subcommands();
+  const std::string command = chosen.empty() ? "" : chosen.front()->get_name();
+  const std::vector<std::string> unknown = program.remaining();
+  if (!command.empty())
+    print_error(fmt::format("{}: {}; see kinemesh {} --help", command, mistake, command));
+  else if (!unknown.empty())
+    print_error(
+        fmt::format("{}: no such command, expected one of{}", unknown.front(), command_names(program)));
+  else
+    print_error(fmt::format("no command, expected one of{}; see kinemesh --help", command_names(program)));
+}
+
 // CLI11 has an exit code for every kind of mistake; ours is one.
 int answer_to(const CLI::App& program, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(error);
-  const auto chosen = program.get_subcommands();
-  const std::string command = chosen.empty() ? "" : chosen.front()->get_name();
-  print_error(fmt::format("{}{}{}; see kinemesh {}--help", command, command.empty() ? "" : ": ", error.what(),
-                          command.empty() ? "" : command + " "));
+  explain(program, error.what());
   return bad_input;
 }
 

@@ -98,8 +98,7 @@ int run_scenario(const RunArguments& arguments) {
   if (!arguments.quiet) print_summary(summary, progress.probe());
   if (!summary.stopped) return done;
   std::fflush(stdout);
-  print_error(
-      fmt::format("{}: stopped after step {}: {}", arguments.scenario, summary.steps, *summary.stopped));
+  print_error(fmt::format("{}: {}", arguments.scenario, *summary.stopped));
   return not_valid;
 }
 

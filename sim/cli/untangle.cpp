@@ -113,10 +113,9 @@ void add_untangle(CLI::App& program, Action& action) {
       "\"inverted_before\",\n"
       "\"degenerate_before\", \"inverted_after\", \"doubled_edges\", \"regions\": [{\"seed\", \"faces\",\n"
       "\"padding_faces\", \"inverted\", \"components\", \"gamma_first_stable\", \"gamma\", \"explored\",\n"
-      "\"crease_edges\", \"retries\", \"self_overlap\"}]}. A region's faces are those of the file that it "
-      "replaced,\n"
-      "sorted; its seed is the smallest of them that was inverted or flat, or -1 if that is padding.\n"
-      "`remesh` has one region with all faces.");
+      "\"crease_edges\", \"retries\", \"self_overlap\"}]}. A region's faces are those of the file that it\n"
+      "replaced, sorted; its seed is the smallest of them that was inverted or flat, or -1 if\n"
+      "all such faces are padding. `remesh` has one region with all faces.");
   command.callback([arguments, &action] { action = [arguments] { return untangle(*arguments); }; });
 }
 

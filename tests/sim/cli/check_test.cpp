@@ -39,18 +39,33 @@ TEST_F(Check, ValidGrid) {
   EXPECT_EQ(json["min_area"], 0.5);
 }
 
-// Vertex 5 = (1, 1) of a 3 x 3 grid goes to (2.5, 1.25), over vertex 6 = (2, 1): of its six faces those four
-// that lie to its right or whose far side it has passed are turned over.
+// Vertex 5 = (1, 1) of a 3 x 3 grid goes to (2.5, 1.25), across two sides of the hexagon around it: (1,
+// 0)-(2, 1), which face 3 has, and (2, 1)-(2, 2), which face 8 has.
 TEST_F(Check, TangledGridNamesItsFaces) {
   const Json json = check(write("grid.off", grid_off(3, {{5, 2.5, 1.25}})), 1);
-  EXPECT_GT(json["inverted"], 0);
+  EXPECT_EQ(json["inverted"], 2);
   EXPECT_EQ(json["degenerate"], 0);
-  EXPECT_LT(json["min_area"], 0.0);
+  EXPECT_EQ(json["inverted_components"], 1);
+  EXPECT_EQ(json["min_area"], -0.25);
+  ASSERT_EQ(json["culprits"].size(), 2u);
   const Json culprit = json["culprits"][0];
   EXPECT_EQ(culprit["kind"], "inverted face");
-  EXPECT_EQ(culprit["faces"].size(), 1u);
-  EXPECT_EQ(culprit["vertices"].size(), 3u);
-  EXPECT_NE(std::find(culprit["vertices"].begin(), culprit["vertices"].end(), 5), culprit["vertices"].end());
+  EXPECT_EQ(culprit["faces"], Json({3}));
+  EXPECT_EQ(culprit["vertices"], Json({1, 6, 5}));
+  EXPECT_EQ(json["culprits"][1]["faces"], Json({8}));
+}
+
+TEST_F(Check, OnlyTheFirstCulpritsAreNamed) {
+  const Json json =
+      check(write("grid.off", grid_off(8, {{20, 6.5, 3.5}, {50, 1.4, 2.7}, {41, 7.5, 7.25}})), 1);
+  EXPECT_GT(json["inverted"], 5);
+  EXPECT_EQ(json["degenerate"], 0);
+  EXPECT_EQ(json["culprits"].size(), 5u);
+  const std::string table = run({"check", path("grid.off").string()}).out;
+  EXPECT_NE(table.find("  and " + std::to_string(json["inverted"].get<int>() - 5) +
+                       " more inverted or flat faces\n"),
+            std::string::npos)
+      << table;
 }
 
 // Corner (0, 0) of the middle cell lands on the far corner's diagonal: exactly its two faces there become
