@@ -1,11 +1,10 @@
 #include "motion/motion.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -34,12 +33,8 @@ Point moved(const Point& x, const Point& way) {
   return {moved(x.x, way.x), moved(x.y, way.y)};
 }
 
-std::string shortest(double number) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
-}
-std::string shortest(const Point& p) {
-  return '(' + shortest(p.x) + ", " + shortest(p.y) + ')';
+std::string text(const Point& p) {
+  return fmt::format("({}, {})", p.x, p.y);
 }
 
 // A marker that a term names is moving unless `border` says otherwise.
@@ -56,7 +51,7 @@ std::vector<double> weights_of_term(const Mesh& mesh, const std::vector<MotionTe
   try {
     return weights(mesh, terms[i].where);
   } catch (const ParameterError& error) {
-    throw ParameterError("motion." + std::to_string(i) + '.' + error.key(), error.what());
+    throw ParameterError(fmt::format("motion.{}.{}", i, error.key()), error.what());
   }
 }
 
@@ -149,9 +144,9 @@ double Motion::fill_noise(double dt, std::uint64_t step, std::span<Point> noises
 
 std::string Motion::describe_non_finite(int vertex, std::span<const Point> x0, double t, double dt,
                                         std::uint64_t step) const {
+  const std::string place = fmt::format("at {}, time {}", text(x0[vertex]), t);
   const auto blame = [&](const auto& field, const Point& value) {
-    return "field \"" + std::string(field->name()) + "\" gives " + shortest(value) + " at vertex " +
-           std::to_string(user_vertex_[vertex]) + ", " + shortest(x0[vertex]) + ", time " + shortest(t);
+    return fmt::format("field \"{}\" gives {} {}", field->name(), text(value), place);
   };
   for (const auto& term : velocities_) {
     if (term.weight(vertex) == 0.0) continue;
@@ -168,8 +163,7 @@ std::string Motion::describe_non_finite(int vertex, std::span<const Point> x0, d
     if (const Point kick = term.field->kick(user_vertex_[vertex], step, dt, spacing_);
         term.weight(vertex) != 0.0 && !is_finite(kick))
       return blame(term.field, kick);
-  return "the motions add up to a non-finite position at vertex " + std::to_string(user_vertex_[vertex]) +
-         ", " + shortest(x0[vertex]) + ", time " + shortest(t);
+  return "the motions add up to it " + place;
 }
 
 }  // namespace kinemesh

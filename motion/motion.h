@@ -36,8 +36,7 @@ class Motion {
   // be non-finite: the caller checks.
   void advance(std::span<const Point> x0, double t, double dt, std::uint64_t step, std::span<Point> x1) const;
 
-  // Who made the vertex non-finite in the step from x0: a clause that names field, vertex (user's number),
-  // place and time.
+  // Who made the vertex non-finite in the step from x0: a clause that names field, value, place and time.
   std::string describe_non_finite(int vertex, std::span<const Point> x0, double t, double dt,
                                   std::uint64_t step) const;
 

@@ -1,7 +1,8 @@
 #include "motion/registry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "motion/builtin_fields.h"
@@ -12,11 +13,6 @@ namespace {
 std::vector<RegisteredField>& registry() {
   static std::vector<RegisteredField> all = builtin_fields();
   return all;
-}
-
-std::string shortest(double number) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
 const char* expectation(ParameterKind kind) {
@@ -92,7 +88,7 @@ std::string names_of(const Items& items) {
 }
 
 [[noreturn]] void refuse(const FieldInfo& field, const std::string& key, const std::string& why) {
-  throw ParameterError(key, "field \"" + field.name + "\": " + why);
+  throw ParameterError(key, fmt::format("field \"{}\": {}", field.name, why));
 }
 
 void refuse_unknown(const FieldInfo& info, const FieldParameters& given) {
@@ -107,13 +103,10 @@ void refuse_unknown(const FieldInfo& info, const FieldParameters& given) {
 }  // namespace
 
 std::string to_string(const ParameterValue& value) {
-  if (const auto* x = std::get_if<double>(&value)) return shortest(*x);
-  if (const auto* n = std::get_if<std::int64_t>(&value)) return std::to_string(*n);
+  if (const auto* x = std::get_if<double>(&value)) return fmt::format("{}", *x);
+  if (const auto* n = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *n);
   if (const auto* text = std::get_if<std::string>(&value)) return '"' + *text + '"';
-  std::string list;
-  for (const double x : std::get<std::vector<double>>(value))
-    list += (list.empty() ? "" : ", ") + shortest(x);
-  return '[' + list + ']';
+  return fmt::format("[{}]", fmt::join(std::get<std::vector<double>>(value), ", "));
 }
 
 CheckedParameters::CheckedParameters(const FieldInfo& info, const FieldParameters& given) {

@@ -1,7 +1,6 @@
 // Fields by name: what scenarios and `kinemesh list` know of them.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -38,7 +37,7 @@ struct FieldInfo {
   std::vector<ParameterInfo> parameters;
 };
 
-// "x = 0.5", "[0.5, 0.5]", ...: a value as a scenario writes it.
+// As a scenario writes it: 0.5, [0.5, 0.5], "x + y".
 std::string to_string(const ParameterValue& value);
 
 // Parameters that have been checked against a FieldInfo: all there, of the right kind and in range.
