@@ -52,7 +52,9 @@ class IncludeArrows(unittest.TestCase):
 
 
 class References(unittest.TestCase):
-    """[Author 1999, §2] in a comment or a page is @...{author1999, in docs/references.bib."""
+    """[Author 1999, §2; Other & Third 2001] in a comment or a page is author1999 and other2001 in docs/references.bib."""
+
+    PART = r"[A-Z][A-Za-z]+(?: & [\w ]+?)? [12]\d{3}(?:, [^\[\];]*)?"
 
     def setUp(self):
         self.entries = set(re.findall(r"^@\w+\{(\w+),", read(ROOT / "docs/references.bib"), re.MULTILINE))
@@ -60,8 +62,11 @@ class References(unittest.TestCase):
         files += sorted((ROOT / "docs").glob("*.md")) + [ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
         self.cited = {}
         for path in files:
-            for author, year in re.findall(r"\[([A-Z][A-Za-z]+)\s+(?://\s*)?([12]\d{3})[,\]]", read(path)):
-                self.cited.setdefault(author.lower() + year, path.relative_to(ROOT))
+            text = re.sub(r"\s*\n\s*(?://)?\s*", " ", read(path))
+            for citation in re.findall(rf"\[({self.PART}(?:; {self.PART})*)\]", text):
+                for part in citation.split("; "):
+                    key = part.split()[0].lower() + re.search(r"[12]\d{3}", part).group()
+                    self.cited.setdefault(key, path.relative_to(ROOT))
 
     def test_each_key_has_an_entry(self):
         self.assertIn("agarwal2008", self.cited)

@@ -1,0 +1,35 @@
+// From arrays to a mesh, and the sweep over it.
+#include <benchmark/benchmark.h>
+
+#include "core/build.h"
+#include "core/validate.h"
+#include "inputs.h"
+#include "untangle/detect.h"
+
+namespace kinemesh::bench {
+namespace {
+
+void build(benchmark::State& state) {
+  const MeshData& data = square(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    const Mesh mesh = build_mesh(data);
+    state.PauseTiming();
+    if (const auto defect = validate(mesh)) state.SkipWithError(defect->message().c_str());
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(state.iterations() * data.n_faces());
+}
+
+void sweep(benchmark::State& state) {
+  const Mesh& mesh = square_mesh(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    if (!detect(mesh).empty()) state.SkipWithError("a valid mesh has tangles");
+  }
+  state.SetItemsProcessed(state.iterations() * mesh.n_faces());
+}
+
+BENCHMARK(build)->Arg(100'000)->Arg(500'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(sweep)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace kinemesh::bench
