@@ -20,8 +20,8 @@ enum class BorderCondition : std::uint8_t { Moving, Slide, Fixed };
 BorderCondition parse_border_condition(std::string_view name, const std::string& key);
 
 struct BorderConditions {
-  BorderCondition otherwise =
-      BorderCondition::Fixed;  // for markers not named here and border edges without a marker
+  // For markers not named here and border edges without a marker.
+  BorderCondition otherwise = BorderCondition::Fixed;
   std::map<std::string, BorderCondition> by_marker;  // inner lines, too, where named
 };
 

@@ -23,8 +23,9 @@ struct MotionTerm {
 class Motion {
  public:
   // mesh: as it is at the start of the whole run, also when a run is resumed: initial positions, weights and
-  // spacing are taken from it. A marker that some term names is moving unless `border` says otherwise. Throws
-  // ParameterError (key "on" or a marker's name) where terms or border do not fit the mesh.
+  // spacing are taken from it. A marker that some term names is moving unless `border` says otherwise.
+  // Throws ParameterError where terms or border do not fit the mesh; its key is "motion.N.on" or
+  // "motion.N.blend", N the number of the term, or a marker's name as in Freedom.
   Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions border = {},
          Integrator integrator = Integrator::Rk4);
 
