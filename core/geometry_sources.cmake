@@ -1,3 +1,8 @@
 set(KINEMESH_GEOMETRY_SOURCES
   exact.cpp
-  predicates.cpp)
+  predicates.cpp
+  refine.cpp
+  shapes.cpp
+  shapes_graded.cpp
+  shapes_random.cpp
+  shapes_umbilic.cpp)
