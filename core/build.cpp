@@ -105,6 +105,9 @@ void MeshBuilder::place_vertices() {
       for (const int v : t) used.push_back(points[v]);
     }
     const auto corners = frame_around(used, options_.frame);
+    if (!std::isfinite(corners[0].x) || !std::isfinite(corners[0].y) || !std::isfinite(corners[2].x) ||
+        !std::isfinite(corners[2].y))
+      throw InputError("the frame's corners are not finite, a smaller frame or smaller coordinates expected");
     points.insert(points.end(), corners.begin(), corners.end());
   }
   const auto order = hilbert_order(points);

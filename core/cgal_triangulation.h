@@ -39,19 +39,16 @@ class CgalTriangulation {
 
   // False if two of them cross.
   bool insert_edges(std::span<const Edge> edges) {
-    edge_number_.clear();
+    number_edges(edges);
     try {
       for (int i = 0; i < static_cast<int>(edges.size()); ++i) {
         const auto [a, b] = edges[i];
+        if (number_of_edge(a, b) != i) continue;  // CGAL takes an edge's repetition for a crossing
         cdt_.insert_constraint(vertices_[a], vertices_[b]);
-        edge_number_.emplace_back(key_of(a, b), i);
       }
     } catch (const typename Cdt::Intersection_of_constraints_exception&) {
       return false;
     }
-    std::sort(edge_number_.begin(), edge_number_.end());
-    const auto same_ends = [](const auto& e, const auto& f) { return e.first == f.first; };
-    edge_number_.erase(std::unique(edge_number_.begin(), edge_number_.end(), same_ends), edge_number_.end());
     return true;
   }
 
@@ -92,6 +89,16 @@ class CgalTriangulation {
   static std::uint64_t key_of(int a, int b) {
     const auto [low, high] = std::minmax(a, b);
     return (static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint32_t>(high);
+  }
+
+  void number_edges(std::span<const Edge> edges) {
+    edge_number_.clear();
+    for (int i = 0; i < static_cast<int>(edges.size()); ++i) {
+      edge_number_.emplace_back(key_of(edges[i][0], edges[i][1]), i);
+    }
+    std::sort(edge_number_.begin(), edge_number_.end());
+    const auto same_ends = [](const auto& e, const auto& f) { return e.first == f.first; };
+    edge_number_.erase(std::unique(edge_number_.begin(), edge_number_.end(), same_ends), edge_number_.end());
   }
 
   int number_of_edge(int a, int b) const {

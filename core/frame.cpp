@@ -26,6 +26,14 @@ std::array<Point, 4> rectangle(const Box& box, double margin) {
           Point{box.high.x + d, box.high.y + d}, Point{box.low.x - d, box.high.y + d}};
 }
 
+// True if the hull turns at its vertex i.
+bool is_corner(const Mesh& mesh, std::size_t i) {
+  const auto hull = mesh.hull();
+  const Point& before = mesh.position(hull[(i + hull.size() - 1) % hull.size()]);
+  const Point& after = mesh.position(hull[(i + 1) % hull.size()]);
+  return orientation(before, mesh.position(hull[i]), after) != Orientation::Collinear;
+}
+
 // A valid domain is inside its border.
 Box domain_box(const Mesh& mesh) {
   Box box;
@@ -66,7 +74,7 @@ std::optional<Defect> hull_defect(const Mesh& mesh, std::span<const Point> next)
     const Point& before = next[hull[(i + hull.size() - 1) % hull.size()]];
     const Point& after = next[hull[(i + 1) % hull.size()]];
     const bool between = next[v] != before && next[v] != after && on_segment(next[v], before, after);
-    if (between) continue;
+    if (between && !is_corner(mesh, i)) continue;
     return Defect{.kind = DefectKind::HullMoved, .vertices = {mesh.user_vertex(v)}, .where = next[v]};
   }
   return std::nullopt;

@@ -19,9 +19,9 @@ std::array<Point, 4> frame_around(std::span<const Point> points, double margin);
 // on the mesh's positions alone. Nothing without a frame.
 void follow(const Mesh& mesh, std::span<Point> next);
 
-// Without a frame, the vertices of the convex hull have to stay where they are, or on the straight line
-// between their neighbours of the hull. The first that would not, at the positions `next`; nothing with a
-// frame. Exact.
+// Without a frame, the corners of the convex hull have to stay where they are, and its other vertices on the
+// straight line between their neighbours of the hull. The first that would not, at the positions `next`;
+// nothing with a frame. Exact.
 std::optional<Defect> hull_defect(const Mesh& mesh, std::span<const Point> next);
 
 // True if p is neither strictly inside the hull of the mesh nor a position of one of its vertices. Exact,

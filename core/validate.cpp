@@ -1,5 +1,7 @@
 #include "core/validate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -187,26 +189,34 @@ Found check_hull(const Mesh& mesh) {
                 .detail = "the border of the padded mesh goes around more than once"};
 }
 
-double cross(const Point& a, const Point& b) {
-  return a.x * b.y - a.y * b.x;
-}
+// A sum of areas, and of the sizes of the products in it, which bound its rounding error. long double:
+// neither overflows.
+struct AreaSum {
+  long double area = 0, size = 0;
+
+  void add(const Point& origin, const Point& a, const Point& b) {
+    using Wide = glm::vec<2, long double>;
+    const Wide o(origin), u = Wide(a) - o, v = Wide(b) - o;
+    const long double l = 0.5L * u.x * v.y, r = 0.5L * u.y * v.x;
+    area += l - r;
+    size += std::abs(l) + std::abs(r);
+  }
+};
 
 // With every face upright the areas can only add up if nothing overlaps and nothing is missing.
 Found check_coverage(const Mesh& mesh) {
   const Point origin = mesh.position(mesh.hull()[0]);
-  long double faces = 0, border = 0, size = 0;
+  AreaSum faces, border;
   for (int f = 0; f < mesh.n_faces(); ++f) {
     const auto [a, b, c] = mesh.corners(f);
-    if (!mesh.is_padding(f)) faces += 0.5 * cross(b - a, c - a);
-    size += std::abs(cross(a - origin, b - origin));
+    if (!mesh.is_padding(f)) faces.add(a, b, c);
   }
   for (const auto& c : mesh.constraints()) {
-    if (c.is_border()) border += 0.5 * cross(mesh.position(c.from) - origin, mesh.position(c.to) - origin);
+    if (c.is_border()) border.add(origin, mesh.position(c.from), mesh.position(c.to));
   }
-  if (std::abs(faces - border) <= 1e-12L * size) return std::nullopt;
+  if (std::abs(faces.area - border.area) <= 1e-12L * (faces.size + border.size)) return std::nullopt;
   return Defect{.kind = DefectKind::Coverage,
-                .detail = std::to_string(static_cast<double>(faces)) + " against " +
-                          std::to_string(static_cast<double>(border))};
+                .detail = fmt::format("{} against {}", faces.area, border.area)};
 }
 
 template <class... Checks>

@@ -9,21 +9,27 @@
 #include "core/winding.h"
 
 namespace kinemesh {
+namespace {
+
+Edge sorted(const Edge& edge) {
+  return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
+}
+
+}  // namespace
 
 RegionMesher::Result RegionMesher::run(const Mesh& mesh, const FaceSets& sets, int set) {
   mesh_ = &mesh;
   collect(sets, set);
   if (const auto contact = triangulator_.triangulate(points_, edges_, triangulation_)) {
-    auto defect = verdict(*contact);
-    if (!defect) return Result::NotSimple;
-    defect_ = std::move(*defect);
-    return Result::NoMesh;
+    if (auto defect = verdict(*contact)) {
+      defect_ = std::move(*defect);
+      return Result::NoMesh;
+    }
+  } else if (select_inside(static_cast<int>(sets.faces(set).size()))) {
+    convert();
+    return Result::Done;
   }
-  if (!select_inside(static_cast<int>(sets.faces(set).size()))) {
-    return find_lost_vertex() ? Result::NoMesh : Result::NotSimple;
-  }
-  convert();
-  return Result::Done;
+  return find_lost_vertex() || find_taken_edge() ? Result::NoMesh : Result::NotSimple;
 }
 
 Point RegionMesher::centre() const {
@@ -113,18 +119,22 @@ std::optional<Defect> RegionMesher::verdict(const Contact& contact) const {
   return std::nullopt;
 }
 
-// Inside are the triangles the border goes around once. False if it is not simple.
+// Inside are the triangles the border goes around once. False if it is not simple, or if a constrained edge
+// is not inside.
 bool RegionMesher::select_inside(int n_expected) {
   const std::span border(edges_.data(), border_halfedges_.size());
   const auto winding = winding_numbers(triangulation_, border);
   inside_.clear();
+  std::size_t constrained_sides = 0;
   for (int t = 0; t < static_cast<int>(winding.size()); ++t) {
-    if (winding[t] == 1)
-      inside_.push_back(t);
-    else if (winding[t] != 0)
-      return false;
+    if (winding[t] == 0) continue;
+    if (winding[t] != 1) return false;
+    inside_.push_back(t);
+    const auto& edges = triangulation_.edges[t];
+    constrained_sides +=
+        std::count_if(edges.begin(), edges.end(), [&](int e) { return e >= border_edges(); });
   }
-  return static_cast<int>(inside_.size()) == n_expected;
+  return static_cast<int>(inside_.size()) == n_expected && constrained_sides == 2 * inner_constraints_.size();
 }
 
 // A vertex beyond the border of the whole mesh is in no face of the region.
@@ -133,6 +143,24 @@ bool RegionMesher::find_lost_vertex() {
     if (!is_outside_hull(*mesh_, points_[i])) continue;
     defect_ =
         Defect{.kind = DefectKind::LeftDomain, .vertices = {user(static_cast<int>(i))}, .where = points_[i]};
+    return true;
+  }
+  return false;
+}
+
+// A constrained edge of the domain with the same ends as an edge of the padding's convex border.
+bool RegionMesher::find_taken_edge() {
+  std::vector<Edge> taken;
+  for (int i = 0; i < border_edges(); ++i) {
+    if (mesh_->face_of(Mesh::opposite(border_halfedges_[i])) == none) taken.push_back(sorted(edges_[i]));
+  }
+  std::sort(taken.begin(), taken.end());
+  for (int i = border_edges(); i < static_cast<int>(edges_.size()); ++i) {
+    if (!std::binary_search(taken.begin(), taken.end(), sorted(edges_[i]))) continue;
+    defect_ = Defect{.kind = DefectKind::MissingEdge,
+                     .edges = {user_edge(i)},
+                     .where = points_[edges_[i][0]],
+                     .detail = "its place is outside the domain"};
     return true;
   }
   return false;

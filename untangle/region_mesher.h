@@ -43,6 +43,7 @@ class RegionMesher {
   std::optional<Defect> verdict(const Contact& contact) const;
   bool select_inside(int n_expected);
   bool find_lost_vertex();
+  bool find_taken_edge();
   void convert();
 
   bool is_constrained(int edge) const;

@@ -75,7 +75,8 @@ class Strategy {
 
   // Makes every face upright by changing connectivity only, or changes nothing. Positions are read, never
   // written. Deterministic, whatever the number of threads. May keep scratch memory between calls; one object
-  // per thread.
+  // per thread. Pre: finite positions; the border of the padded mesh is convex, as hull_defect and follow
+  // (core/frame.h) keep it.
   [[nodiscard]] virtual RepairOutcome repair(Mesh& mesh, const RepairOptions& options) = 0;
 };
 
