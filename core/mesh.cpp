@@ -65,4 +65,15 @@ void Mesh::splice(const Patch& patch) noexcept {
   }
 }
 
+Patch Mesh::inverse_of(const Patch& patch) const {
+  Patch inverse{.faces = patch.faces, .triangles = {}, .labels = {}, .halfedges = {}, .edges = patch.edges, .constraints = {}};
+  for (const int face : patch.faces) {
+    inverse.triangles.push_back(triangles_[face]);
+    inverse.labels.push_back(labels_[face]);
+    inverse.halfedges.push_back(sides(face));
+  }
+  for (const int edge : patch.edges) inverse.constraints.push_back(edge_constraint_[edge]);
+  return inverse;
+}
+
 }  // namespace kinemesh

@@ -118,6 +118,9 @@ class Mesh {
   // changes. Pre: the patch covers the same vertices and has the same border as its faces. Cost: O(patch).
   void splice(const Patch& patch) noexcept;
 
+  // The patch that takes this one back: to be asked for before it is spliced.
+  Patch inverse_of(const Patch& patch) const;
+
  private:
   friend class MeshBuilder;
 

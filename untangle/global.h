@@ -2,8 +2,7 @@
 #pragma once
 
 #include "untangle/detect.h"
-#include "untangle/face_sets.h"
-#include "untangle/region_mesher.h"
+#include "untangle/region_repair.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh {
@@ -17,25 +16,10 @@ class GlobalUntangling : public Strategy {
   [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
 
  private:
-  // A region from the walk to the splice.
-  struct Work {
-    Patch patch;  // empty where the region was absorbed by another
-    int border_edges = 0;
-    int retries = 0;
-    int escaped = 0;
-    Point centre{0.0, 0.0};
-  };
-
-  std::optional<Defect> remesh_all(const Mesh& mesh, const RepairOptions& options);
-  std::optional<Defect> remesh(const Mesh& mesh, const RepairOptions& options, int region);
-  void enlarge(const Mesh& mesh, int region);
-  void take(int face, int region);
+  std::optional<Defect> remesh(const Mesh& mesh, const RepairOptions& options);
   void describe(const Mesh& mesh, const Tangles& tangles, RepairRecord& record) const;
 
-  // Scratch memory, kept from step to step.
-  FaceSets regions_;
-  RegionMesher mesher_;
-  std::vector<Work> work_;  // per region
+  RegionRepair repair_;
 };
 
 }  // namespace kinemesh

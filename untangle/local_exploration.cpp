@@ -27,6 +27,17 @@ std::vector<int> LocalExploration::faces() const {
   return all;
 }
 
+std::vector<Cell> LocalExploration::cells() const {
+  std::vector<Cell> all;
+  for (const auto& [face, pieces] : over_) {
+    for (const int piece : pieces) {
+      if (pieces_[piece].n_faces == 1) all.push_back({face, pieces_[piece].faces[0]});
+    }
+  }
+  std::ranges::sort(all, {}, [](const Cell& cell) { return std::pair(cell.face, cell.inverted); });
+  return all;
+}
+
 // --- reading ---
 
 // The only place that reads a face's corners.

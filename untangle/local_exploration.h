@@ -12,6 +12,7 @@
 
 #include "core/mesh.h"
 #include "core/overlap.h"
+#include "untangle/overlapping_mesher.h"
 
 namespace kinemesh {
 
@@ -40,7 +41,8 @@ class LocalExploration {
   // the region is the minimum. False in degenerate positions where no stable region with gamma = 1 came out.
   [[nodiscard]] bool run(int seed);
 
-  std::vector<int> faces() const;                                  // R*, ascending
+  std::vector<int> faces() const;   // R*, ascending
+  std::vector<Cell> cells() const;  // of R over the inverted faces of J, by face and piece
   int explored() const { return static_cast<int>(read_.size()); }  // faces whose corners were read
   int inverted() const { return inverted_; }                       // faces of J
   int components() const { return components_; }                   // of J

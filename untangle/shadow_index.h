@@ -25,6 +25,14 @@ class ShadowIndex {
     return tree_.qbegin(query) != tree_.qend();
   }
 
+  // Calls visit(face) for each face whose bounding box meets that of the segment a, b, in no particular
+  // order.
+  template <class Visit>
+  void for_each_near(const Point& a, const Point& b, const Visit& visit) const {
+    const auto query = boost::geometry::index::intersects(box_of(a, b));
+    for (auto it = tree_.qbegin(query); it != tree_.qend(); ++it) visit(it->second);
+  }
+
  private:
   using Corner = boost::geometry::model::d2::point_xy<double>;
   using Box = boost::geometry::model::box<Corner>;

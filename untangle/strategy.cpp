@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "untangle/global.h"
+#include "untangle/local.h"
 #include "untangle/remesh.h"
 
 namespace kinemesh {
@@ -18,6 +19,8 @@ std::vector<StrategyInfo>& registry() {
   static std::vector<StrategyInfo> all{
       info<GlobalUntangling>("global",
                              "replaces what the inverted faces cover, all at once; always ends valid"),
+      info<LocalUntangling>(
+          "local", "replaces the minimum region around one inverted face after the other; always ends valid"),
       info<FullRemesh>("remesh", "triangulates all vertices anew at every step (CGAL); always ends valid"),
   };
   return all;

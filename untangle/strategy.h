@@ -29,6 +29,8 @@ struct RegionRecord {
   int gamma_first_stable =
       1;            // signed cover of the region when extending first came to rest [Agarwal 2008, §4]
   int gamma = 1;    // and at the end
+  int rounds = 0;   // of growing shadows [Agarwal 2008, §4]
+  int grown = 0;    // convex pieces that these added to the shadow
   int retries = 0;  // enlargements the safety net needed; 0 outside freak cases
   bool self_overlap = false;  // the region's border overlaps itself in the plane
   Point centre{0.0, 0.0};     // of the bounding box of its vertices

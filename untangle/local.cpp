@@ -1,0 +1,205 @@
+#include "untangle/local.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "core/predicates.h"
+#include "core/stopwatch.h"
+#include "untangle/detect.h"
+#include "untangle/doubled_edges.h"
+#include "untangle/global_walk.h"
+#include "untangle/local_exploration.h"
+#include "untangle/overlapping_mesher.h"
+#include "untangle/records.h"
+
+namespace kinemesh {
+namespace {
+
+Orientation turn(const Mesh& mesh, int face) {
+  const auto [a, b, c] = mesh.corners(face);
+  return orientation(a, b, c);
+}
+
+bool is_upright(const Mesh& mesh, int face) {
+  return turn(mesh, face) == Orientation::CounterClockwise;
+}
+
+// What is tangled among some faces, ascending.
+Tangles tangles_among(const Mesh& mesh, const std::vector<int>& faces) {
+  Tangles tangles;
+  for (const int face : faces) {
+    if (turn(mesh, face) == Orientation::Clockwise) tangles.inverted.push_back(face);
+    if (turn(mesh, face) == Orientation::Collinear) tangles.flat.push_back(face);
+  }
+  return tangles;
+}
+
+// Takes splices back, the last one first, unless told that they stay.
+class Undo {
+ public:
+  explicit Undo(Mesh& mesh) : mesh_(mesh) {}
+  Undo(const Undo&) = delete;
+  Undo& operator=(const Undo&) = delete;
+  ~Undo() {
+    for (auto patch = patches_.rbegin(); patch != patches_.rend(); ++patch) mesh_.splice(*patch);
+  }
+
+  void splice(const Patch& patch) {
+    patches_.push_back(mesh_.inverse_of(patch));
+    mesh_.splice(patch);
+  }
+  void keep() { patches_.clear(); }
+
+ private:
+  Mesh& mesh_;
+  std::vector<Patch> patches_;
+};
+
+std::vector<int> seeds_by_user_number(const Mesh& mesh, const Tangles& tangles) {
+  auto seeds = tangles.inverted;
+  seeds.insert(seeds.end(), tangles.flat.begin(), tangles.flat.end());
+  const auto key = [&](int f) { return std::tuple(mesh.is_padding(f), mesh.user_face(f), f); };
+  std::sort(seeds.begin(), seeds.end(), [&](int f, int g) { return key(f) < key(g); });
+  return seeds;
+}
+
+}  // namespace
+
+RepairOutcome LocalUntangling::repair(Mesh& mesh, const RepairOptions& options) {
+  const Stopwatch detecting;
+  const auto tangles = detect(mesh);
+  const double detect_ms = detecting.milliseconds();
+  const auto components = inverted_components(mesh, tangles.inverted);
+  auto outcome = repair_seeds(mesh, seeds_by_user_number(mesh, tangles), options);
+  outcome.record.inverted = static_cast<int>(tangles.inverted.size());
+  outcome.record.degenerate = static_cast<int>(tangles.flat.size());
+  outcome.record.components = components.count;
+  outcome.record.detect_ms += detect_ms;
+  return outcome;
+}
+
+RepairOutcome LocalUntangling::repair_seeds(Mesh& mesh, std::span<const int> seeds,
+                                            const RepairOptions& options) {
+  for (const int seed : seeds) {
+    if (seed < 0 || seed >= mesh.n_faces()) throw InputError("there is no face " + std::to_string(seed));
+    if (!is_upright(mesh, seed)) continue;
+    throw InputError("face " + std::to_string(mesh.user_face(seed)) +
+                     " is upright, an inverted or flat seed expected");
+  }
+  RepairOutcome outcome;
+  auto& record = outcome.record;
+  Undo undo(mesh);
+  for (const int seed : seeds) {
+    if (is_upright(mesh, seed)) continue;
+    auto region = untangle(mesh, seed, options, record);
+    if (region.defect) {
+      outcome.defect = std::move(region.defect);
+      record.regions.clear();
+      return outcome;
+    }
+    const Stopwatch splicing;
+    undo.splice(region.patch);
+    record.splice_ms += splicing.milliseconds();
+    record.inverted += region.record.inverted;
+    record.degenerate += region.record.degenerate;
+    record.components += region.record.components;
+    record.replaced += static_cast<int>(region.record.faces.size());
+    record.escaped += region.escaped;
+    record.doubled_edges += region.doubled_edges;
+    record.regions.push_back(std::move(region.record));
+  }
+  undo.keep();
+  return outcome;
+}
+
+LocalUntangling::Region LocalUntangling::untangle(const Mesh& mesh, int seed, const RepairOptions& options,
+                                                  RepairRecord& times) {
+  if (turn(mesh, seed) == Orientation::Clockwise) {
+    if (auto region = minimum_region(mesh, seed, options, times)) return std::move(*region);
+  }
+  return piece_of_global_walk(mesh, seed, options, times);
+}
+
+// Nothing where degenerate positions are in the way.
+std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mesh& mesh, int seed,
+                                                                       const RepairOptions& options,
+                                                                       RepairRecord& times) {
+  const Stopwatch exploring;
+  LocalExploration exploration(mesh);
+  const bool found = exploration.run(seed);
+  times.explore_ms += exploring.milliseconds();
+  if (!found) return std::nullopt;
+
+  const Stopwatch triangulating;
+  sets_.reset(mesh.n_faces());
+  const int set = sets_.open();
+  for (const int face : exploration.faces()) sets_.add(face, set);
+  const auto tangles = tangles_among(mesh, sets_.faces(set));
+  if (!tangles.flat.empty()) return std::nullopt;
+
+  Region region;
+  region.record =
+      describe_region(mesh, sets_.faces(set), tangles, inverted_components(mesh, tangles.inverted));
+  region.record.seed = mesh.user_face(seed);
+  region.record.explored = exploration.explored();
+  region.record.gamma_first_stable = exploration.gamma_first_stable();
+  region.record.gamma = exploration.gamma();
+  region.record.rounds = exploration.rounds();
+  region.record.grown = exploration.grown();
+  switch (mesher_.run(mesh, sets_, set)) {
+    case RegionMesher::Result::Done:
+      finish_region(mesh, options, std::move(mesher_.new_faces()), region);
+      break;
+    case RegionMesher::Result::NoMesh:
+      region.defect = mesher_.defect();
+      break;
+    case RegionMesher::Result::NotSimple: {
+      auto faces = mesh_overlapping(mesh, sets_, set, exploration.cells());
+      if (!faces) return std::nullopt;
+      region.record.self_overlap = true;
+      finish_region(mesh, options, std::move(*faces), region);
+    }
+  }
+  times.triangulate_ms += triangulating.milliseconds();
+  return region;
+}
+
+void LocalUntangling::finish_region(const Mesh& mesh, const RepairOptions& options, NewFaces faces,
+                                    Region& region) {
+  region.doubled_edges = avoid_doubled_edges(mesh, sets_, 0, faces);
+  auto finished = finish(mesh, sets_, 0, std::move(faces), options.allow_escaped);
+  region.patch = std::move(finished.patch);
+  region.escaped = finished.escaped;
+  region.defect = std::move(finished.defect);
+  region.record.border_edges = mesher_.border_edges();
+  region.record.centre = mesher_.centre();
+}
+
+LocalUntangling::Region LocalUntangling::piece_of_global_walk(const Mesh& mesh, int seed,
+                                                              const RepairOptions& options,
+                                                              RepairRecord& times) {
+  const Stopwatch exploring;
+  const auto tangles = detect(mesh);
+  walk_globally(mesh, tangles, pieces_.regions());
+  times.explore_ms += exploring.milliseconds();
+
+  const Stopwatch triangulating;
+  pieces_.start();
+  const int piece = pieces_.regions().set_of(seed);
+  Region region;
+  region.defect = pieces_.remesh(mesh, options, piece);
+  if (!region.defect) {
+    const auto& faces = pieces_.regions().faces(piece);
+    region.record = describe_region(mesh, faces, tangles, inverted_components(mesh, tangles.inverted));
+    region.patch = pieces_.patch(piece).patch;
+    region.escaped = pieces_.patch(piece).escaped;
+    region.record.border_edges = pieces_.patch(piece).border_edges;
+    region.record.retries = pieces_.patch(piece).retries;
+    region.record.centre = pieces_.patch(piece).centre;
+  }
+  times.triangulate_ms += triangulating.milliseconds();
+  return region;
+}
+
+}  // namespace kinemesh
