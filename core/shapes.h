@@ -23,18 +23,20 @@ MeshData make_grid(int nx, int ny);
 
 // Random vertices, exactly as many as asked for. With h = sqrt(area / vertices), border vertices are about h
 // apart and no other lies closer to the border than h/2. The constrained Delaunay triangulation; border
-// vertices come first, the others along a Hilbert curve. About 3 us per vertex.
-MeshData make_square(int vertices, std::uint64_t seed = 1);  // [0,1]^2; markers bottom, right, top, left
-MeshData make_disk(int vertices, std::uint64_t seed = 1);    // polygon in the unit circle; marker border
-MeshData make_annulus(int vertices,
-                      std::uint64_t seed = 1);  // polygons in the circles of radius 1, 1/2; outer, inner
+// vertices come first, the others along a Hilbert curve. About 2 us per vertex.
+//   square: [0,1]^2; markers bottom, right, top, left
+//   disk: a regular polygon in the unit circle; marker border
+//   annulus: between regular polygons in the circles of radius 1 and 1/2; markers outer, inner
+MeshData make_square(int vertices, std::uint64_t seed = 1);
+MeshData make_disk(int vertices, std::uint64_t seed = 1);
+MeshData make_annulus(int vertices, std::uint64_t seed = 1);
 
-// Graded meshes by Delaunay refinement, no angle below 20 degrees but near corners; within 5 % of the
-// vertices asked for. Border vertices lie on the exact curves. About 40 us per vertex.
-MeshData make_channel(
-    int vertices);  // [0,4]x[0,1] without a disk; markers inlet, outlet, bottom, top, cylinder
-MeshData make_airfoil(
-    int vertices);  // NACA 0012 from (0,0) to (1,0), far field |p - (1/2,0)| = 15; airfoil, farfield
+// Graded by Delaunay refinement, about as many vertices as asked for (within 5 % from a thousand on). Border
+// vertices lie on the curves themselves. About 20 us per vertex.
+//   channel: [0,4]x[0,1] without a cylinder's section; markers inlet, outlet, bottom, top, cylinder
+//   airfoil: NACA 0012 from (0,0) to (1,0) in the far field |p - (1/2,0)| <= 15; markers airfoil, farfield
+MeshData make_channel(int vertices);
+MeshData make_airfoil(int vertices);
 
 inline constexpr Point cylinder_centre{1.0, 0.5};  // of make_channel
 inline constexpr double cylinder_radius = 0.125;

@@ -1,4 +1,5 @@
 set(KINEMESH_GEOMETRY_TESTS
   exact_oracle.cpp
   predicates_test.cpp
-  contacts_test.cpp)
+  contacts_test.cpp
+  shapes_test.cpp)
