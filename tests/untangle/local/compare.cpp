@@ -1,0 +1,127 @@
+#include "tests/untangle/local/compare.h"
+
+#include <algorithm>
+#include <map>
+#include <ostream>
+
+#include "core/build.h"
+#include "core/io/mesh_io.h"
+#include "tests/untangle/local/local_oracle.h"
+#include "untangle/local_exploration.h"
+
+namespace kinemesh::test {
+namespace {
+
+// The oracle's answer for one component, with what is counted of it.
+struct Expected {
+  LocalRegion region;
+  bool overstepped, self_overlapping;
+};
+
+class Comparison {
+ public:
+  Comparison(const Mesh& mesh, Subdivision plane, const CompareOptions& options)
+      : mesh_(mesh), options_(options), sheets_(mesh, std::move(plane)), oracle_(sheets_) {}
+
+  void run(Counts& counts) {
+    for (int face = 0; face < mesh_.n_faces(); ++face) {
+      const int component = sheets_.component(face);
+      if (component == none) continue;
+      const bool first = !expected_.contains(component);
+      if (first) {
+        expected_.emplace(component, expect(component));
+        ++counts.regions;
+        if (is_small()) compare_minimum(component, counts);
+      }
+      if (first || options_.every_seed) compare_seed(face, expected_.at(component), counts);
+    }
+  }
+
+ private:
+  bool is_small() const {
+    return sheets_.n_components() <= options_.subsets && sheets_.n_lifts() <= options_.lifts;
+  }
+
+  Expected expect(int component) const {
+    Expected out{oracle_.region(component), false, false};
+    EXPECT_TRUE(oracle_.is_locally_removable(out.region.lifts)) << "component " << component;
+    EXPECT_TRUE(oracle_.is_border_bijective(out.region.lifts)) << "component " << component;
+    out.overstepped = out.region.growths == 0 && oracle_.sketch(component) != out.region.faces;
+    out.self_overlapping = oracle_.overlaps_itself(out.region.faces);
+    return out;
+  }
+
+  void compare_minimum(int component, Counts& counts) const {
+    EXPECT_EQ(oracle_.minimum(component), expected_.at(component).region.lifts) << "component " << component;
+    ++counts.minima;
+  }
+
+  void compare_seed(int face, const Expected& expected, Counts& counts) const {
+    const auto& region = expected.region;
+    LocalExploration fast(mesh_);
+    const std::string seed = "seed " + std::to_string(mesh_.user_face(face));
+    EXPECT_TRUE(fast.run(face)) << seed;
+    EXPECT_EQ(fast.faces(), region.faces) << seed;
+    EXPECT_EQ(fast.explored(), static_cast<int>(region.faces.size())) << seed;
+    EXPECT_EQ(fast.inverted(), region.inverted) << seed;
+    EXPECT_EQ(fast.components(), static_cast<int>(region.components.size())) << seed;
+    EXPECT_EQ(fast.gamma_first_stable(), region.gamma_first_stable) << seed;
+    EXPECT_EQ(fast.gamma(), 1) << seed;
+    EXPECT_EQ(fast.rounds() > 0, region.growths > 0) << seed;
+    EXPECT_EQ(fast.grown() > 0, region.growths > 0) << seed;
+    count(expected, counts);
+  }
+
+  static void count(const Expected& expected, Counts& counts) {
+    const auto& region = expected.region;
+    ++counts.seeds;
+    counts.extended += region.components.size() > 1;
+    counts.gamma_2 += region.gamma_first_stable >= 2;
+    counts.grown += region.growths > 0;
+    counts.grown_twice += region.growths > 1;
+    counts.overstepped += expected.overstepped;
+    counts.self_overlapping += expected.self_overlapping;
+    counts.largest = std::max(counts.largest, static_cast<int>(region.faces.size()));
+  }
+
+  const Mesh& mesh_;
+  CompareOptions options_;
+  Sheets sheets_;
+  LocalOracle oracle_;
+  std::map<int, Expected> expected_;
+};
+
+}  // namespace
+
+std::ostream& operator<<(std::ostream& out, const Counts& c) {
+  return out << c.tangles << " meshes (" << c.tangled << " tangled, " << c.skipped << " degenerate), "
+             << c.regions << " components, " << c.seeds << " seeds: " << c.extended << " extended, " << c.gamma_2
+             << " first stable with gamma >= 2, " << c.grown << " grown (" << c.grown_twice << " more than once), "
+             << c.overstepped << " overstepped by whole faces, " << c.self_overlapping
+             << " overlap themselves, at most " << c.largest << " faces; " << c.minima
+             << " compared with all subsets";
+}
+
+void compare(const MeshData& tangle, const std::string& name, Counts& counts, const CompareOptions& options) {
+  SCOPED_TRACE(name);
+  const Mesh mesh = build_mesh(tangle);
+  ++counts.tangles;
+  auto plane = subdivide(mesh);
+  if (!is_general(mesh, plane)) {
+    ++counts.skipped;
+    return;
+  }
+  const bool failed_before = ::testing::Test::HasFailure();
+  const int seeds_before = counts.seeds;
+  try {
+    Comparison(mesh, std::move(plane), options).run(counts);
+  } catch (const std::logic_error& error) {
+    ADD_FAILURE() << error.what();
+  }
+  counts.tangled += counts.seeds > seeds_before;
+  if (::testing::Test::HasFailure() && !failed_before) {
+    write_mesh(::testing::TempDir() + name + ".off", tangle);
+  }
+}
+
+}  // namespace kinemesh::test

@@ -1,0 +1,33 @@
+// The exploration equals brute force on random tangles. KINEMESH_TANGLES and KINEMESH_FIRST_TANGLE in the
+// environment choose how many and which (scripts/sweep_local.sh).
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "tests/untangle/local/compare.h"
+#include "tests/untangle/local/tangles.h"
+
+namespace kinemesh::test {
+namespace {
+
+int from_environment(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::atoi(text) : otherwise;
+}
+
+TEST(LocalSweep, EqualsBruteForceOnRandomTangles) {
+  const int first = from_environment("KINEMESH_FIRST_TANGLE", 1);
+  const int n = from_environment("KINEMESH_TANGLES", 300);
+  Counts counts;
+  for (int seed = first; seed < first + n; ++seed) {
+    compare(random_tangle(seed), "tangle" + std::to_string(seed), counts);
+  }
+  std::cout << counts << '\n';
+  EXPECT_EQ(counts.tangles, n);
+  EXPECT_LE(counts.skipped, n / 100);
+  EXPECT_GT(counts.extended, 0);
+}
+
+}  // namespace
+}  // namespace kinemesh::test

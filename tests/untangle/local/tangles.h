@@ -1,0 +1,29 @@
+// Seeded random tangled meshes of all degrees of hopelessness.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "core/mesh_data.h"
+
+namespace kinemesh::test {
+
+// Whole and double numbers that are the same with every standard library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
+  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double uniform(double from, double to) { return from + (to - from) * uniform(); }
+  Point in_square() { return {uniform(), uniform()}; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+// A Delaunay mesh of the unit square with 5 to 60 vertices whose inner ones have been moved, at random: a
+// little or far, all or some, exchanged, folded over a line, or thrown anywhere. The border is still, nothing
+// leaves the square; in general position but for what happens to random doubles with probability about 0.
+MeshData random_tangle(std::uint64_t seed);
+
+}  // namespace kinemesh::test
