@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/io/atomic_file.h"
+#include "core/shapes.h"
 #include "motion/registry.h"
 #include "motion/restriction.h"
 #include "sim/overrides.h"
@@ -45,11 +46,12 @@ void read_file_source(TomlTable& table, const std::string& file, const std::file
 }
 
 void read_shape_source(TomlTable& table, const std::string& shape, MeshSpec& mesh) {
+  require_one_of(table, "shape", shape, names_of(shapes()));
   mesh.shape = shape;
   mesh.vertices = static_cast<int>(table.integer("vertices", 3, most).value_or(mesh.vertices));
   mesh.seed =
       static_cast<std::uint64_t>(table.integer("seed", 0).value_or(static_cast<std::int64_t>(mesh.seed)));
-  const auto k = table.integer("k", 1, 1000);
+  const auto k = table.integer("k", 2, 32);
   if (k && shape != "umbilic") table.fail("k", "belongs to the shape umbilic");
   mesh.k = static_cast<int>(k.value_or(mesh.k));
 }

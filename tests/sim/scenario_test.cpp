@@ -136,6 +136,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"EmptyFile", "shape = 'square'", "file = ''",
                 "a.toml:2: file: the name of a mesh file expected"},
         Mistake{"NoText", "'square'", "3", "a.toml:2: shape: 3, a text in quotes expected"},
+        Mistake{"UnknownShape", "'square'", "'sqare'",
+                "a.toml:2: shape: unknown: 'sqare', did you mean 'square'?"},
         Mistake{"FewVertices", "shape", "vertices = 2\nshape", "a.toml:2: vertices: 2, an integer from 3 to"},
         Mistake{"VerticesNumber", "shape", "vertices = 1e3\nshape",
                 "a.toml:2: vertices: 1000.0, an integer from"},
