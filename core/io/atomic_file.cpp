@@ -67,9 +67,13 @@ fs::path resolved(const fs::path& path) {
     throw InputError(path.string(), 0,
                      fs::is_directory(status) ? "is a directory, expected a file" : "is not a regular file");
   }
-  if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
-  const fs::path target = fs::weakly_canonical(path, error);
-  return error ? path : target;
+  fs::path target = path;
+  for (int links = 0; links < 40 && fs::is_symlink(fs::symlink_status(target, error)); ++links) {
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) break;
+    target = target.parent_path() / next;  // an absolute one replaces it all
+  }
+  return target;
 }
 
 // The renaming itself must survive a crash. Some file systems cannot flush directories: no reason to fail.

@@ -120,6 +120,7 @@ class GmshReader {
     if (name.size() < 2 || name.front() != '"' || name.back() != '"') {
       scanner_.fail("expected the name of a physical group in double quotes");
     }
+    if (name.find('"', 1) != name.size() - 1) scanner_.fail("quotes within the name of a physical group");
     return name.substr(1, name.size() - 2);
   }
   void name_group(int dimension, int tag, std::string_view name, int line) {

@@ -18,11 +18,11 @@ struct ViewBox {
 };
 
 struct SvgOptions {
-  std::span<const std::uint8_t> replaced;  // per face, or empty
-  double width = 1000.0;                   // of the drawing, in pixels; the height follows
-  std::optional<ViewBox> view;             // default: the whole mesh
-  std::string title;                       // above the drawing; empty: none
-  bool draw_edges = true;                  // false: only constrained edges and the outlines of marked faces
+  std::span<const std::uint8_t> replaced = {};  // per face, or empty
+  double width = 1000.0;                        // of the drawing, in pixels; the height follows
+  std::optional<ViewBox> view = {};             // default: the whole mesh
+  std::string title = {};                       // above the drawing; empty: none
+  bool draw_edges = true;  // false: only constrained edges and the outlines of marked faces
 };
 
 // Borders, interfaces between labels and markers count as constrained. Faces outside the view are left out.

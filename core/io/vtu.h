@@ -14,11 +14,11 @@ namespace kinemesh {
 
 // What a time step knows beyond its mesh. Empty spans are left out of the file.
 struct VtuFields {
-  std::optional<double> time;  // TimeValue, the user's time unit
-  std::span<const Point>
-      displacement;  // per vertex, the user's length unit; written with a third component 0
-  std::span<const std::uint8_t> replaced;  // per face: 1 if replaced since the file before
-  std::span<const int> region;             // per face: number of the region that replaced it, or none
+  std::optional<double> time = {};  // TimeValue, the user's time unit
+  // Per vertex, the user's length unit; written with a third component 0.
+  std::span<const Point> displacement = {};
+  std::span<const std::uint8_t> replaced = {};  // per face: 1 if replaced since the file before
+  std::span<const int> region = {};             // per face: number of the region that replaced it, or none
 };
 
 // Version 1.0, appended raw data, Float64 points. The labels are cell data `label` (Int32), always there;

@@ -6,6 +6,7 @@
 #include "core/io/scanner.h"
 #include "core/io/vtu_array.h"
 #include "core/io/vtu_names.h"
+#include "core/io/xml.h"
 
 namespace kinemesh::io {
 namespace {
@@ -172,6 +173,7 @@ class VtuReader {
 
   void read_field(const pugi::xml_node& array) {
     const std::string_view name = array.attribute("Name").as_string();
+    if (!is_utf8(name)) arrays_.fail(array, "the name " + in_quotes(name) + " is not UTF-8");
     if (name.starts_with(marker_prefix)) read_marker(array, name.substr(marker_prefix.size()));
     if (name.starts_with(label_name_prefix)) name_labels(array, name.substr(label_name_prefix.size()));
   }

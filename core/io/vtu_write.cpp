@@ -1,7 +1,7 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
-#include <set>
 
 #include "core/error.h"
 #include "core/io/text_buffer.h"
@@ -33,24 +33,26 @@ void append_points(std::string& out, std::span<const Point> points) {
     append_all(out, x);
   }
 }
-void append_integers(std::string& out, long long value, std::size_t n_bytes) {
+void append_integer(std::string& out, long long value, std::size_t n_bytes) {
   out.append(reinterpret_cast<const char*>(&value), n_bytes);  // the lower bytes come first
 }
 
-enum class Section { Field, Point, Cell, Points, Cells };
-
 struct Array {
-  Section section;
-  std::string name;
+  const char* name;
   const char* type;
   int components;
-  std::size_t tuples;
   std::size_t bytes;                         // of the data, without its header
   std::function<void(std::string&)> append;  // the data
 };
 
-// Bytes of the integers in the arrays of the cells, for which the format leaves a choice.
-struct Widths {
+struct Section {
+  const char* element;
+  std::vector<Array> arrays;
+};
+
+// What the format leaves open: bytes of the integers that describe the cells, and what comes first.
+struct Layout {
+  bool cells_first;
   std::size_t connectivity, offsets, types;
 };
 
@@ -60,16 +62,18 @@ const char* integer_type(std::size_t n_bytes) {
 
 class VtuWriter {
  public:
-  VtuWriter(const MeshData& mesh, const VtuFields& fields) : mesh_(mesh), fields_(fields) { choose_arrays(); }
+  VtuWriter(const MeshData& mesh, const VtuFields& fields) : mesh_(mesh), fields_(fields) { choose_layout(); }
 
   std::string write() {
     TextBuffer head;
     write_head(head);
     std::string out = head.take();
     out.reserve(out.size() + 64 + data_bytes());
-    for (const Array& array : arrays_) {
-      append_value(out, static_cast<std::uint64_t>(array.bytes));
-      array.append(out);
+    for (const Section& section : sections_) {
+      for (const Array& array : section.arrays) {
+        append_value(out, static_cast<std::uint64_t>(array.bytes));
+        array.append(out);
+      }
     }
     return out + "\n</AppendedData>\n</VTKFile>\n";
   }
@@ -77,139 +81,152 @@ class VtuWriter {
  private:
   // meshio finds arrays by the text of their offset, while it replaces the offsets by those of its own base64
   // copy, one after the other: where one of its offsets happens to equal a later one of ours, it mixes the
-  // two arrays up. Other widths of the integers then move the offsets apart.
-  void choose_arrays() {
-    for (std::size_t types : {1, 4, 8}) {
-      for (std::size_t offsets : {4, 8}) {
-        for (std::size_t connectivity : {4, 8}) {
-          list_arrays({connectivity, offsets, types});
-          if (!confuses_meshio()) return;
+  // two arrays up. Another layout then moves the offsets apart.
+  void choose_layout() {
+    for (bool cells_first : {false, true}) {
+      for (std::size_t types : {1, 4, 8}) {
+        for (std::size_t offsets : {4, 8}) {
+          for (std::size_t connectivity : {4, 8}) {
+            list_sections({cells_first, connectivity, offsets, types});
+            if (!confuses_meshio()) return;
+          }
         }
       }
     }
   }
   bool confuses_meshio() const {
-    std::set<std::size_t> replaced;
+    std::vector<std::size_t> replaced;
     std::size_t ours = 0, theirs = 0;
-    for (const Array& array : arrays_) {
-      if (replaced.count(ours) > 0) return true;
-      replaced.insert(theirs);
-      ours += 8 + array.bytes;
-      theirs += (8 + array.bytes + 2) / 3 * 4;
+    for (const Section& section : sections_) {
+      for (const Array& array : section.arrays) {
+        if (std::find(replaced.begin(), replaced.end(), ours) != replaced.end()) return true;
+        replaced.push_back(theirs);
+        ours += 8 + array.bytes;
+        theirs += (8 + array.bytes + 2) / 3 * 4;
+      }
     }
     return false;
   }
 
-  void list_arrays(const Widths& widths) {
-    arrays_.clear();
-    list_field_data();
-    list_point_data();
-    list_cell_data();
-    add(Section::Points, "Points", "Float64", 3, mesh_.points.size(), 24 * mesh_.points.size(),
-        [this](std::string& out) { append_points(out, mesh_.points); });
-    list_cells(widths);
+  void list_sections(const Layout& layout) {
+    const Section points{"Points", {point_array("Points", mesh_.points)}};
+    if (layout.cells_first) {
+      sections_ = {cells(layout), points, point_data(), cell_data()};
+    } else {
+      sections_ = {point_data(), cell_data(), points, cells(layout)};
+    }
+    std::erase_if(sections_, [](const Section& section) { return section.arrays.empty(); });
   }
 
-  void list_field_data() {
-    if (fields_.time) {
-      add(Section::Field, "TimeValue", "Float64", 1, 1, 8,
-          [this](std::string& out) { append_value(out, *fields_.time); });
-    }
-    for (const Marker& marker : mesh_.markers) {
-      add(Section::Field, std::string(io::marker_prefix) + marker.name, "Int32", 2, marker.edges.size(),
-          8 * marker.edges.size(), [&marker](std::string& out) { append_all(out, marker.edges); });
-    }
-    for (const auto& entry : mesh_.label_names) {
-      add(Section::Field, std::string(io::label_name_prefix) + entry.second, "Int32", 1, 1, 4,
-          [&entry](std::string& out) { append_value(out, entry.first); });
-    }
+  Section point_data() const {
+    Section section{"PointData", {}};
+    if (!fields_.displacement.empty())
+      section.arrays.push_back(point_array("displacement", fields_.displacement));
+    return section;
   }
 
-  void list_point_data() {
-    const auto& d = fields_.displacement;
-    if (d.empty()) return;
-    add(Section::Point, "displacement", "Float64", 3, d.size(), 24 * d.size(),
-        [d](std::string& out) { append_points(out, d); });
-  }
-
-  void list_cell_data() {
+  Section cell_data() const {
     const std::size_t n = mesh_.triangles.size();
-    add(Section::Cell, io::label_name, "Int32", 1, n, 4 * n, [this, n](std::string& out) {
-      mesh_.labels.empty() ? void(out.append(4 * n, '\0')) : append_all(out, mesh_.labels);
-    });
-    if (!fields_.replaced.empty()) {
-      add(Section::Cell, "replaced", "UInt8", 1, n, n,
-          [this](std::string& out) { append_all(out, fields_.replaced); });
-    }
-    if (!fields_.region.empty()) {
-      add(Section::Cell, "region", "Int32", 1, n, 4 * n,
-          [this](std::string& out) { append_all(out, fields_.region); });
-    }
+    Section section{"CellData", {}};
+    section.arrays.push_back({io::label_name, "Int32", 1, 4 * n, [this, n](std::string& out) {
+                                mesh_.labels.empty() ? void(out.append(4 * n, '\0'))
+                                                     : append_all(out, mesh_.labels);
+                              }});
+    if (!fields_.replaced.empty())
+      section.arrays.push_back(flat_array("replaced", "UInt8", fields_.replaced));
+    if (!fields_.region.empty()) section.arrays.push_back(flat_array("region", "Int32", fields_.region));
+    return section;
   }
 
-  void list_cells(const Widths& widths) {
+  Section cells(const Layout& layout) const {
     const std::size_t n = mesh_.triangles.size();
-    const auto add_integers = [&](const char* name, std::size_t count, std::size_t width, auto value) {
-      add(Section::Cells, name, integer_type(width), 1, count, width * count, [=](std::string& out) {
-        for (std::size_t i = 0; i < count; ++i) append_integers(out, value(i), width);
-      });
-    };
-    add_integers("connectivity", 3 * n, widths.connectivity,
-                 [this](std::size_t i) { return mesh_.triangles[i / 3][i % 3]; });
-    add_integers("offsets", n, widths.offsets,
-                 [](std::size_t i) { return static_cast<long long>(3 * i + 3); });
     constexpr int triangle = 5;
-    add_integers("types", n, widths.types, [](std::size_t) { return triangle; });
+    const auto corner = [this](std::size_t i) { return mesh_.triangles[i / 3][i % 3]; };
+    const auto end = [](std::size_t i) { return static_cast<long long>(3 * i + 3); };
+    const auto type = [](std::size_t) { return triangle; };
+    return {
+        "Cells",
+        {integer_array("connectivity", 3 * n, layout.connectivity, corner),
+         integer_array("offsets", n, layout.offsets, end), integer_array("types", n, layout.types, type)}};
   }
 
-  void add(Section section, std::string name, const char* type, int components, std::size_t tuples,
-           std::size_t bytes, std::function<void(std::string&)> append) {
-    arrays_.push_back({section, std::move(name), type, components, tuples, bytes, std::move(append)});
+  static Array point_array(const char* name, std::span<const Point> points) {
+    return {name, "Float64", 3, 24 * points.size(),
+            [points](std::string& out) { append_points(out, points); }};
+  }
+  template <class Values>
+  static Array flat_array(const char* name, const char* type, Values values) {
+    return {name, type, 1, values.size_bytes(), [values](std::string& out) { append_all(out, values); }};
+  }
+  template <class Value>
+  static Array integer_array(const char* name, std::size_t count, std::size_t width, Value value) {
+    return {name, integer_type(width), 1, width * count, [=](std::string& out) {
+              for (std::size_t i = 0; i < count; ++i) append_integer(out, value(i), width);
+            }};
   }
 
   std::size_t data_bytes() const {
     std::size_t sum = 0;
-    for (const Array& array : arrays_) sum += 8 + array.bytes;
+    for (const Section& section : sections_) {
+      for (const Array& array : section.arrays) sum += 8 + array.bytes;
+    }
     return sum;
   }
 
-  void write_head(TextBuffer& head) {
+  void write_head(TextBuffer& head) const {
     head << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
             "byte_order=\"LittleEndian\" "
             "header_type=\"UInt64\">\n<UnstructuredGrid>\n";
-    std::size_t offset = 0;
-    write_section(head, Section::Field, "FieldData", offset);
+    write_field_data(head);
     head << "<Piece NumberOfPoints=\"" << mesh_.points.size() << "\" NumberOfCells=\""
          << mesh_.triangles.size() << "\">\n";
-    write_section(head, Section::Point, "PointData", offset);
-    write_section(head, Section::Cell, "CellData", offset);
-    write_section(head, Section::Points, "Points", offset);
-    write_section(head, Section::Cells, "Cells", offset);
+    std::size_t offset = 0;
+    for (const Section& section : sections_) {
+      head << '<' << section.element << ">\n";
+      for (const Array& array : section.arrays) {
+        write_array(head, array, offset);
+        offset += 8 + array.bytes;
+      }
+      head << "</" << section.element << ">\n";
+    }
     head << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   }
 
-  void write_section(TextBuffer& head, Section section, const char* element, std::size_t& offset) const {
-    bool is_open = false;
-    for (const Array& array : arrays_) {
-      if (array.section != section) continue;
-      if (!is_open) head << '<' << element << ">\n";
-      is_open = true;
-      write_array(head, array, offset);
-      offset += 8 + array.bytes;
-    }
-    if (is_open) head << "</" << element << ">\n";
+  static void write_array(TextBuffer& head, const Array& array, std::size_t offset) {
+    head << "<DataArray type=\"" << array.type << "\" Name=\"" << array.name << '"';
+    if (array.components != 1) head << " NumberOfComponents=\"" << array.components << '"';
+    head << " format=\"appended\" offset=\"" << offset << "\"/>\n";
   }
 
-  static void write_array(TextBuffer& head, const Array& array, std::size_t offset) {
-    head << "<DataArray type=\"" << array.type << "\" Name=\"" << io::xml_text(array.name) << '"';
-    if (array.components != 1) head << " NumberOfComponents=\"" << array.components << '"';
-    if (array.section == Section::Field) head << " NumberOfTuples=\"" << array.tuples << '"';
-    head << " format=\"appended\" offset=\"" << offset << "\"/>\n";
+  // Short, and in ASCII: they are for people too.
+  void write_field_data(TextBuffer& head) const {
+    if (!fields_.time && mesh_.markers.empty() && mesh_.label_names.empty()) return;
+    head << "<FieldData>\n";
+    if (fields_.time) {
+      begin_field(head, "Float64", "TimeValue", 1, 1);
+      head << *fields_.time << "\n</DataArray>\n";
+    }
+    for (const Marker& marker : mesh_.markers) {
+      begin_field(head, "Int32", std::string(io::marker_prefix) + marker.name, 2, marker.edges.size());
+      for (const Edge& e : marker.edges) head << e[0] << ' ' << e[1] << '\n';
+      head << "</DataArray>\n";
+    }
+    for (const auto& [label, name] : mesh_.label_names) {
+      begin_field(head, "Int32", std::string(io::label_name_prefix) + name, 1, 1);
+      head << label << "\n</DataArray>\n";
+    }
+    head << "</FieldData>\n";
+  }
+  static void begin_field(TextBuffer& head, const char* type, const std::string& name, int components,
+                          std::size_t n) {
+    head << "<DataArray type=\"" << type << "\" Name=\"" << io::xml_text(name) << '"';
+    if (components != 1) head << " NumberOfComponents=\"" << components << '"';
+    head << " NumberOfTuples=\"" << n << "\" format=\"ascii\">\n";
   }
 
   const MeshData& mesh_;
   const VtuFields& fields_;
-  std::vector<Array> arrays_;  // by section, in the order of their data
+  std::vector<Section> sections_;  // in the order of the document and of the data
 };
 
 void check_fields(const MeshData& mesh, const VtuFields& fields) {

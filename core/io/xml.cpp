@@ -21,15 +21,6 @@ std::size_t utf8_length(std::string_view text) {
                                                                                                       : 0;
 }
 
-bool is_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
-}
-
 std::string latin1_to_utf8(std::string_view text) {
   std::string result;
   for (char c : text) {
@@ -44,6 +35,15 @@ std::string latin1_to_utf8(std::string_view text) {
 }
 
 }  // namespace
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
 
 std::string xml_text(std::string_view text) {
   std::string result;

@@ -10,4 +10,6 @@ namespace kinemesh::io {
 // well-formed.
 std::string xml_text(std::string_view text);
 
+bool is_utf8(std::string_view text);
+
 }  // namespace kinemesh::io
