@@ -6,6 +6,8 @@ cd "$(dirname "$0")/.."
 
 scripts/install_packages.sh
 cmake --preset release
-cmake --build --preset release --target kinemesh_cli
+cmake --build --preset release --target kinemesh_cli example_draw_step
 
-build/release/kinemesh run examples/scenarios/airfoil-revolution.toml -o demo --force
+scenario=examples/scenarios/airfoil-revolution.toml
+build/release/kinemesh run "$scenario" -o demo --force
+build/release/examples/example_draw_step "$scenario" 60 demo/step_60.svg -1.6 -1.6 2.6 1.6

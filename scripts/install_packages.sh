@@ -13,7 +13,6 @@ build=(
   libmuparser-dev   # formulas in scenarios
   libopenmesh-dev   # half-edges
   libpugixml-dev    # VTU
-  libspdlog-dev
   libtbb-dev        # threads
   libtomlplusplus-dev
   nlohmann-json3-dev
