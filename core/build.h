@@ -13,7 +13,7 @@ namespace kinemesh {
 struct BuildOptions {
   double frame =
       0.0;  // margin of the outer padding in bounding-box diagonals; 0: none, the convex hull must not move
-  std::vector<int> fixed;  // user's vertices that no motion moves
+  std::vector<int> fixed = {};  // user's vertices that no motion moves
 };
 
 // The domain has no embedding as given: its borders cross, touch or overlap.
