@@ -45,11 +45,13 @@ class IncludeArrows(unittest.TestCase):
                     self.assertIn(included, allowed, f"{path.relative_to(ROOT)} includes from {included}/")
 
     def test_cgal_stays_behind_sources(self):
-        # Headers named cgal_* are for sources, and not installed.
-        for path in (path for folder in MAY_INCLUDE for path in sources(folder)):
-            if path.suffix == ".h" and not path.name.startswith("cgal_"):
-                found = re.search(r'#\s*include\s*(<CGAL/|"\w+/cgal_).*', read(path))
-                self.assertIsNone(found, f"{path.relative_to(ROOT)}: {found and found.group()}")
+        headers = {path: read(path) for folder in MAY_INCLUDE for path in sources(folder) if path.suffix == ".h"}
+        internal = {path for path, text in headers.items() if "For .cpp files only" in text}
+        for path, text in headers.items():
+            if "#include <CGAL/" in text:
+                self.assertIn(path, internal)
+            for name in internal:
+                self.assertFalse(f'"{name.relative_to(ROOT)}"' in text, f"{path} includes {name}")
 
 
 class References(unittest.TestCase):
