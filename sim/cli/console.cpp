@@ -1,9 +1,9 @@
 #include "sim/cli/console.h"
 
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -23,8 +23,13 @@ bool is_set(const char* variable) {
 
 }  // namespace
 
+void say(const std::string& text) noexcept {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 void print_error(const std::string& message) {
-  fmt::print(stderr, "kinemesh: {}\n", on_one_line(message));
+  say("kinemesh: " + on_one_line(message) + "\n");
 }
 
 void print_note(const std::string& message) {

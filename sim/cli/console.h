@@ -5,6 +5,9 @@
 
 namespace kinemesh::cli {
 
+// `text` as it is, at once. Does not throw: whether anybody can read it must not change what a run does.
+void say(const std::string& text) noexcept;
+
 // "kinemesh: MESSAGE"; line breaks within become spaces, so that it stays one line.
 void print_error(const std::string& message);
 

@@ -1,9 +1,13 @@
 // kinemesh: the command-line program. Contract of its exit codes and messages: docs/command_line.md.
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <OpenMesh/Core/System/omstream.hh>
+#include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "core/error.h"
 #include "sim/cli/commands.h"
@@ -11,6 +15,14 @@
 
 namespace kinemesh::cli {
 namespace {
+
+// A file opened while stdout or stderr is closed would take its number, and our messages.
+void occupy_standard_files() {
+  for (int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(number, F_GETFD) == -1)
+      (void)open("/dev/null", O_RDONLY);  // takes the lowest number that is free
+  }
+}
 
 void silence_openmesh() {
   omlog().disable();
@@ -58,6 +70,9 @@ int perform(const Action& action) try { return after_flush(action()); } catch (c
 } catch (const std::bad_alloc&) {
   print_error("out of memory");
   return not_valid;
+} catch (const std::system_error& error) {  // by fmt::print, for one
+  print_error(std::ferror(stdout) != 0 ? "cannot write to standard output" : error.what());
+  return not_valid;
 } catch (const std::exception& error) {
   print_error(fmt::format("internal error: {}", error.what()));
   return not_valid;
@@ -88,6 +103,7 @@ int run_program(int argc, char** argv) {
 }  // namespace kinemesh::cli
 
 int main(int argc, char** argv) {
+  kinemesh::cli::occupy_standard_files();
   kinemesh::cli::silence_openmesh();
   return kinemesh::cli::run_program(argc, argv);
 }

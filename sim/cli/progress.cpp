@@ -36,7 +36,7 @@ Progress::Progress(Verbosity verbosity)
       has_colour_(cli::has_colour()) {}
 
 void Progress::clear_live_line() {
-  if (is_line_open_) fmt::print(stderr, "\r\x1b[K");
+  if (is_line_open_) say("\r\x1b[K");
   is_line_open_ = false;
 }
 
@@ -70,12 +70,11 @@ void Progress::show(const StepRecord& record, int n_faces) {
   const double left = elapsed / std::max(1, record.step) * (plan_.steps - record.step);
   const std::string text = describe(record, plan_, n_faces) + "  ETA " + clock_time(left);
   if (!is_live_) {
-    fmt::print(stderr, "{}\n", text);
+    say(text + "\n");
     return;
   }
   const char* colour = !has_colour_ ? "" : record.repair.regions.empty() ? "\x1b[32m" : "\x1b[33m";
-  fmt::print(stderr, "\r{}{}{}\x1b[K", colour, text, has_colour_ ? "\x1b[0m" : "");
-  std::fflush(stderr);
+  say(fmt::format("\r{}{}{}\x1b[K", colour, text, has_colour_ ? "\x1b[0m" : ""));
   is_line_open_ = true;
 }
 

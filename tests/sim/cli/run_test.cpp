@@ -83,6 +83,17 @@ TEST_F(Run, QuietSaysNothing) {
   expect_complete("s", 20);
 }
 
+TEST_F(Run, NobodyHasToListen) {
+  write("s.toml", jitter_toml);
+  const std::string program =
+      "cd " + path(".").string() + " && " KINEMESH_PROGRAM " run s.toml --force > out 2";
+  EXPECT_EQ(std::system((program + ">&-").c_str()), 0);
+  expect_complete("s", 20);
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  EXPECT_EQ(std::system((program + "> /dev/full").c_str()), 0);
+  expect_complete("s", 20);
+}
+
 TEST_F(Run, VerboseSaysEveryStep) {
   write("s.toml", jitter_toml);
   const Result result = run({"run", "s.toml", "-v"});

@@ -1,7 +1,9 @@
 // `kinemesh untangle`: what is repaired, what stays as it was, and the report.
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "core/types.h"
 #include "program.h"
@@ -163,8 +165,9 @@ TEST_F(Untangle, LabelsSurvive) {
   const auto labels = [&](const std::string& name) {
     std::vector<std::string> result;  // of the triangles, in order
     for (const std::string& line : lines(name)) {
-      const size_t at = line.find(" 2 2 ");
-      if (at != std::string::npos) result.push_back(line.substr(at + 5, 1));
+      std::istringstream words(line);
+      const std::vector<std::string> fields{std::istream_iterator<std::string>(words), {}};
+      if (fields.size() == 8 && fields[1] == "2") result.push_back(fields[3]);
     }
     return result;
   };
