@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "core/io/atomic_file.h"
+#include "core/io/mesh_io.h"
 #include "core/measure.h"
 #include "core/stopwatch.h"
 #include "sim/csv_log.h"

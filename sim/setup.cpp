@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "core/build.h"
+#include "core/io/mesh_io.h"
 #include "core/shapes.h"
 #include "core/validate.h"
 #include "motion/registry.h"
@@ -111,8 +112,7 @@ SetUp set_up(const Scenario& scenario) {
   try {
     require_still_hull(scenario, mesh, border);
     Motion motion(mesh, std::move(terms), std::move(border), scenario.time.integrator);
-    const Format format = scenario.mesh.file.empty() ? Format::Su2 : *format_of(scenario.mesh.file);
-    return {std::move(mesh), std::move(motion), format, std::move(read.notes)};
+    return {std::move(mesh), std::move(motion), std::move(read.notes)};
   } catch (const ParameterError& error) {
     throw error_at(where_of(scenario, error.key()), error.what());
   }

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/io/mesh_io.h"
 #include "core/mesh.h"
 #include "motion/motion.h"
 #include "sim/scenario.h"
@@ -14,7 +13,6 @@ namespace kinemesh {
 struct SetUp {
   Mesh mesh;
   Motion motion;
-  Format format;                   // of the input file; SU2 for shapes, which have markers
   std::vector<std::string> notes;  // of the mesh's reader
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -10,15 +9,10 @@
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/measure.h"
+#include "core/stopwatch.h"
 
 namespace kinemesh {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Shortest text that reads back as the same number.
 std::string exact_text(double value) {
@@ -95,7 +89,7 @@ Stepper::Stepper(Mesh mesh, const StepperOptions& options)
 // `move` writes the positions at end_time over those of now and names what made one of them not finite.
 template <class Move>
 StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
-  const auto start = Clock::now();
+  const Stopwatch clock;
   StepOutcome outcome;
   outcome.record.step = step_ + 1;
   outcome.record.time = end_time;
@@ -107,7 +101,7 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
     follow(mesh_, next_);
     outcome.defect = hull_defect(mesh_, next_);
   }
-  outcome.record.move_ms = ms_since(start);
+  outcome.record.move_ms = clock.milliseconds();
 
   if (!outcome.defect) repair_moved(outcome);
   if (outcome.defect) {
@@ -118,7 +112,7 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
     outcome.record.accepted = true;
   }
   describe_mesh(mesh_, outcome.record);
-  outcome.record.total_ms = ms_since(start);
+  outcome.record.total_ms = clock.milliseconds();
   return outcome;
 }
 
