@@ -95,9 +95,9 @@ class Comparison {
 
 std::ostream& operator<<(std::ostream& out, const Counts& c) {
   return out << c.tangles << " meshes (" << c.tangled << " tangled, " << c.skipped << " degenerate), "
-             << c.regions << " components, " << c.seeds << " seeds: " << c.extended << " extended, " << c.gamma_2
-             << " first stable with gamma >= 2, " << c.grown << " grown (" << c.grown_twice << " more than once), "
-             << c.overstepped << " overstepped by whole faces, " << c.self_overlapping
+             << c.regions << " components, " << c.seeds << " seeds: " << c.extended << " extended, "
+             << c.gamma_2 << " first stable with gamma >= 2, " << c.grown << " grown (" << c.grown_twice
+             << " more than once), " << c.overstepped << " overstepped by whole faces, " << c.self_overlapping
              << " overlap themselves, at most " << c.largest << " faces; " << c.minima
              << " compared with all subsets";
 }

@@ -60,7 +60,8 @@ LocalRegion LocalOracle::region(int component) const {
       continue;
     }
     const auto value = constant_gamma(out.lifts);
-    require(value.has_value() && *value > 0, "gamma of a stable region is not constant and positive: Lemma 2.5");
+    require(value.has_value() && *value > 0,
+            "gamma of a stable region is not constant and positive: Lemma 2.5");
     if (out.growths == 0 && out.gamma_first_stable == 0) out.gamma_first_stable = *value;
     if (*value == 1) break;
     const Cells larger = grown(out.lifts, x);

@@ -12,8 +12,8 @@ using Cells = std::vector<bool>;  // a set of cells: part of the plane
 using Lifts = std::vector<bool>;  // a set of lifts: part of the mesh
 
 struct LocalRegion {
-  Lifts lifts;             // R
-  std::vector<int> faces;  // R*, ascending
+  Lifts lifts;                  // R
+  std::vector<int> faces;       // R*, ascending
   std::vector<int> components;  // J, ascending
   int inverted = 0;             // faces of J
   int gamma_first_stable = 0;
@@ -72,7 +72,7 @@ class LocalOracle {
   std::vector<std::pair<int, int>> first_pairs(const Lifts& r, const Cells& x) const;
 
   const Sheets& sheets_;
-  std::vector<Cells> shadow_of_;  // per component
+  std::vector<Cells> shadow_of_;        // per component
   std::vector<bool> is_crease_vertex_;  // per vertex of the subdivision: the set Q
 };
 

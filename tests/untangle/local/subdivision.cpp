@@ -39,8 +39,8 @@ Subdivision::Segment segment_of(const Arrangement::Halfedge& halfedge,
                                 const Numbers<Arrangement::Vertex_const_handle>& vertices) {
   const bool forward = halfedge.direction() == CGAL::ARR_LEFT_TO_RIGHT;
   const auto& h = forward ? halfedge : *halfedge.twin();
-  Subdivision::Segment segment{cells.at(h.face()), cells.at(h.twin()->face()),
-                               {vertices.at(h.source()), vertices.at(h.target())}, {}};
+  Subdivision::Segment segment{
+      cells.at(h.face()), cells.at(h.twin()->face()), {vertices.at(h.source()), vertices.at(h.target())}, {}};
   for (auto it = h.curve().data().begin(); it != h.curve().data().end(); ++it) segment.edges.push_back(*it);
   std::sort(segment.edges.begin(), segment.edges.end());
   return segment;

@@ -65,7 +65,8 @@ void jitter(Random& random, std::span<Point> points, double share) {
 
 void exchange(Random& random, std::span<Point> points) {
   const int n = static_cast<int>(points.size());
-  for (int i = 1 + random.below(1 + n / 2); i > 0; --i) std::swap(points[random.below(n)], points[random.below(n)]);
+  for (int i = 1 + random.below(1 + n / 2); i > 0; --i)
+    std::swap(points[random.below(n)], points[random.below(n)]);
 }
 
 // Everything beyond a line through the square is folded back over it.
@@ -100,22 +101,41 @@ void twist(Random& random, std::span<Point> points) {
 
 }  // namespace
 
-MeshData random_tangle(std::uint64_t seed) {
+MeshData random_tangle(std::uint64_t seed, Tangling tangling, int n_vertices) {
   Random random(seed);
-  const double share = random.uniform();
-  const int n = smallest + static_cast<int>((largest + 1 - smallest) * share * share);
-  auto start = random_start(random, n);
+  auto start = random_start(random, n_vertices);
   const std::span<Point> inner = std::span(start.mesh.points).subspan(start.n_border);
-  switch (random.below(7)) {
-    case 0: jitter(random, inner, 1.0); break;
-    case 1: jitter(random, inner, random.uniform(0.05, 0.5)); break;
-    case 2: exchange(random, inner); break;
-    case 3: fold(random, inner); break;
-    case 4: throw_anywhere(random, inner); break;
-    case 5: twist(random, inner); break;
-    default: exchange(random, inner); jitter(random, inner, 1.0);
+  switch (tangling) {
+    case Tangling::Jitter:
+      jitter(random, inner, 1.0);
+      break;
+    case Tangling::JitterSome:
+      jitter(random, inner, random.uniform(0.05, 0.5));
+      break;
+    case Tangling::Exchange:
+      exchange(random, inner);
+      break;
+    case Tangling::Fold:
+      fold(random, inner);
+      break;
+    case Tangling::Throw:
+      throw_anywhere(random, inner);
+      break;
+    case Tangling::Twist:
+      twist(random, inner);
+      break;
+    case Tangling::ExchangeAndJitter:
+      exchange(random, inner);
+      jitter(random, inner, 1.0);
   }
   return std::move(start.mesh);
+}
+
+MeshData random_tangle(std::uint64_t seed) {
+  Random random(~seed);
+  const double share = random.uniform();
+  const int n = smallest + static_cast<int>((largest + 1 - smallest) * share * share * share);
+  return random_tangle(seed, static_cast<Tangling>(random.below(n_tanglings)), n);
 }
 
 }  // namespace kinemesh::test

@@ -21,9 +21,15 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// A Delaunay mesh of the unit square with 5 to 60 vertices whose inner ones have been moved, at random: a
-// little or far, all or some, exchanged, folded over a line, or thrown anywhere. The border is still, nothing
-// leaves the square; in general position but for what happens to random doubles with probability about 0.
+enum class Tangling { Jitter, JitterSome, Exchange, Fold, Throw, Twist, ExchangeAndJitter };
+inline constexpr int n_tanglings = 7;
+
+// A Delaunay mesh of the unit square whose inner vertices have been moved, at random: a little or far, all or
+// some, exchanged, folded over lines, thrown anywhere, or twisted. The border is still and nothing leaves the
+// square. Pre: n_vertices >= 5.
+MeshData random_tangle(std::uint64_t seed, Tangling tangling, int n_vertices);
+
+// The same with 5 to 60 vertices, mostly few, and any tangling.
 MeshData random_tangle(std::uint64_t seed);
 
 }  // namespace kinemesh::test
