@@ -70,46 +70,57 @@ std::optional<int> certain_sign(double value, double bound) {
 // one of its entries is 0 two of the half-planes decide, and those belong to two triangles that are known to
 // overlap.
 template <class Number>
-struct Form {
-  std::array<Number, 3> l;
-  Number value;  // sum l_i c_i
-};
+Number turn_between(const Halfplane& h, const Halfplane& i) {
+  return cross(difference<Number>(h.b, h.a), difference<Number>(i.b, i.a));
+}
 
+// sum l_i c_i, seen from h.a, where c of h is 0.
 template <class Number>
-Form<Number> farkas(const Halfplane& h, const Halfplane& i, const Halfplane& j) {
+Number farkas_sum(const Halfplane& h, const Halfplane& i, const Halfplane& j) {
   const auto d = difference<Number>(h.b, h.a), e = difference<Number>(i.b, i.a),
              f = difference<Number>(j.b, j.a);
-  const auto p = difference<Number>(i.a, h.a),
-             q = difference<Number>(j.a, h.a);  // seen from h.a, where c of h is 0
-  const std::array<Number, 3> l{cross(e, f), cross(f, d), cross(d, e)};
-  return {l, l[1] * cross(e, p) + l[2] * cross(f, q)};
+  const auto p = difference<Number>(i.a, h.a), q = difference<Number>(j.a, h.a);
+  return cross(f, d) * cross(e, p) + cross(d, e) * cross(f, q);
 }
 
-template <class Sign>
-bool is_empty(const std::array<Sign, 3>& l, int value) {
-  if (l[0] > 0 && l[1] > 0 && l[2] > 0) return value >= 0;
-  if (l[0] < 0 && l[1] < 0 && l[2] < 0) return value <= 0;
-  return false;
+bool is_end(const Point& p, const Halfplane& h) {
+  return p == h.a || p == h.b;
 }
 
-bool has_point(const Halfplane& h, const Halfplane& i, const Halfplane& j) {
+bool are_on_one_line(const Halfplane& h, const Halfplane& i) {
+  return is_end(h.a, i) && is_end(h.b, i);
+}
+
+// Sides of neighbouring faces share vertices; then the sum is 0 without arithmetic.
+bool meet_in_one_end(const Halfplane& h, const Halfplane& i, const Halfplane& j) {
+  return (is_end(h.a, i) && is_end(h.a, j)) || (is_end(h.b, i) && is_end(h.b, j));
+}
+
+int sign_of_turn(const Halfplane& h, const Halfplane& i) {
+  const double m = size_of({difference<double>(h.b, h.a), difference<double>(i.b, i.a)});
+  if (m > smallest && m < largest) {
+    if (const auto value = certain_sign(turn_between<double>(h, i), cross_error * m * m)) return *value;
+  }
+  return sign(turn_between<Rational>(h, i));
+}
+
+int sign_of_farkas_sum(const Halfplane& h, const Halfplane& i, const Halfplane& j) {
+  if (meet_in_one_end(h, i, j)) return 0;
   const double m =
       size_of({difference<double>(h.b, h.a), difference<double>(i.b, i.a), difference<double>(j.b, j.a),
                difference<double>(i.a, h.a), difference<double>(j.a, h.a)});
   if (m > smallest && m < largest) {
-    const auto form = farkas<double>(h, i, j);
-    const double bound = cross_error * m * m;
-    const bool certain =
-        std::all_of(form.l.begin(), form.l.end(), [&](double l) { return std::abs(l) > bound; });
-    if (certain) {
-      const std::array<int, 3> l{sign(form.l[0]), sign(form.l[1]), sign(form.l[2])};
-      if (l[0] != l[1] || l[1] != l[2]) return true;
-      if (const auto value = certain_sign(form.value, form_error * m * m * m * m))
-        return !is_empty(l, *value);
-    }
+    if (const auto value = certain_sign(farkas_sum<double>(h, i, j), form_error * m * m * m * m))
+      return *value;
   }
-  const auto form = farkas<Rational>(h, i, j);
-  return !is_empty(std::array<int, 3>{sign(form.l[0]), sign(form.l[1]), sign(form.l[2])}, sign(form.value));
+  return sign(farkas_sum<Rational>(h, i, j));
+}
+
+bool has_point(const Halfplane& h, const Halfplane& i, const Halfplane& j) {
+  if (are_on_one_line(h, i) || are_on_one_line(i, j) || are_on_one_line(j, h)) return true;  // two decide
+  const int turn_hi = sign_of_turn(h, i);
+  if (turn_hi == 0 || sign_of_turn(i, j) != turn_hi || sign_of_turn(j, h) != turn_hi) return true;
+  return turn_hi * sign_of_farkas_sum(h, i, j) < 0;
 }
 
 // --- a segment and two half-planes ---
@@ -123,7 +134,7 @@ Number determinant(const Halfplane& h, const Point& a, const Point& b, const Hal
   return value(h, a) * value(i, b) - value(i, a) * value(h, b);
 }
 
-// h is entered at b's end no sooner than... : along a -> b one leaves h after one enters i.
+// Along a -> b one leaves h after one has entered i.
 bool leaves_after_entering(const Halfplane& h, const Halfplane& i, const Point& a, const Point& b) {
   const double m =
       size_of({difference<double>(h.b, h.a), difference<double>(i.b, i.a), difference<double>(a, h.a),
@@ -133,6 +144,15 @@ bool leaves_after_entering(const Halfplane& h, const Halfplane& i, const Point& 
       return *value > 0;
   }
   return sign(determinant<Rational>(h, a, b, i)) > 0;
+}
+
+// --- one inside the other ---
+
+bool is_within(const Shadow& t, const std::array<Halfplane, 3>& sides) {
+  return std::all_of(sides.begin(), sides.end(), [&](const Halfplane& h) {
+    return std::none_of(t.begin(), t.end(),
+                        [&](const Point& p) { return orientation(h.a, h.b, p) == Orientation::Clockwise; });
+  });
 }
 
 // --- the cover over a point ---
@@ -187,14 +207,23 @@ std::optional<int> cover_over(const P& p, const Shadow& piece, std::span<const S
 
 bool interiors_overlap(const Shadow& s, const Shadow& t, const Shadow& u) {
   if (!interiors_overlap(s, t) || !interiors_overlap(t, u) || !interiors_overlap(u, s)) return false;
-  for (const auto& h : sides_of(s)) {
-    for (const auto& i : sides_of(t)) {
-      for (const auto& j : sides_of(u)) {
+  const auto of_s = sides_of(s), of_t = sides_of(t), of_u = sides_of(u);
+  if (is_within(s, of_t) || is_within(s, of_u) || is_within(t, of_s) || is_within(t, of_u) ||
+      is_within(u, of_s) || is_within(u, of_t)) {
+    return true;
+  }
+  for (const auto& h : of_s) {
+    for (const auto& i : of_t) {
+      for (const auto& j : of_u) {
         if (!has_point(h, i, j)) return false;
       }
     }
   }
   return true;
+}
+
+bool is_within(const Shadow& t, const Shadow& container) {
+  return is_within(t, sides_of(container));
 }
 
 bool interiors_overlap(std::span<const Shadow> triangles) {

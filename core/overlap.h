@@ -17,6 +17,9 @@ using Shadow = std::array<Point, 3>;  // a face's image in the plane
 // True if the interiors of all three triangles have a common point.
 bool interiors_overlap(const Shadow& s, const Shadow& t, const Shadow& u);
 
+// True if every point of the first triangle is in the second, border included.
+bool is_within(const Shadow& t, const Shadow& container);
+
 // True if the interiors of all triangles have a common point. By Helly's theorem any three at a time decide.
 bool interiors_overlap(std::span<const Shadow> triangles);
 

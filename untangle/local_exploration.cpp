@@ -8,6 +8,17 @@
 namespace kinemesh {
 namespace bgi = boost::geometry::index;
 
+namespace {
+
+template <class Box>
+Box common(const Box& a, const Box& b) {
+  return {
+      {std::max(a.min_corner().x(), b.min_corner().x()), std::max(a.min_corner().y(), b.min_corner().y())},
+      {std::min(a.max_corner().x(), b.max_corner().x()), std::min(a.max_corner().y(), b.max_corner().y())}};
+}
+
+}  // namespace
+
 bool LocalExploration::run(int seed) {
   extend(seed);
   walk();
@@ -60,13 +71,13 @@ LocalExploration::Box LocalExploration::box_of(int face) {
 
 bool LocalExploration::is_visited(int face, int piece) const {
   const auto found = over_.find(face);
-  return found != over_.end() && std::ranges::find(found->second, piece) != found->second.end();
+  return found != over_.end() && std::ranges::binary_search(found->second, piece);
 }
 
 void LocalExploration::visit(int face, int piece) {
   auto& pieces = over_[face];
   if (pieces.empty()) face_index_.insert({box_of(face), face});
-  pieces.push_back(piece);
+  pieces.insert(std::ranges::lower_bound(pieces, piece), piece);
   pending_.push_back({face, piece});
 }
 
@@ -103,28 +114,39 @@ bool LocalExploration::crosses(const Pair& pair, int side) {
 }
 
 void LocalExploration::change_piece(const Pair& pair) {
+  if (settled_.contains(pair.face)) return;
   std::vector<int> near;
-  for (auto it = piece_index_.qbegin(bgi::intersects(box_of(pair.face))); it != piece_index_.qend(); ++it) {
+  const Box cell =
+      common(box_of(pair.face), pieces_[pair.piece].box);  // where both ways of being connected meet
+  for (auto it = piece_index_.qbegin(bgi::intersects(cell)); it != piece_index_.qend(); ++it) {
     near.push_back(it->second);
   }
   std::ranges::sort(near);  // the walk does not depend on the index
   for (const int other : near) {
     if (!is_visited(pair.face, other) && are_connected(pair.face, pair.piece, other)) visit(pair.face, other);
   }
+  // Within one piece, whatever lies over the face is connected there: nothing more to find, whichever pair
+  // comes next.
+  const auto within = pieces_[pair.piece].all();
+  const bool settled =
+      std::ranges::all_of(within, [&](int f) { return is_within(shadow(pair.face), shadow(f)); });
+  if (settled) settled_.insert(pair.face);
 }
 
 // Both over the face: with a common interior point, or beside each other along an edge that runs through the
 // face.
 bool LocalExploration::are_connected(int face, int piece, int other) {
   const auto d = pieces_[piece].all(), e = pieces_[other].all();
-  std::vector<int> faces{face};
-  faces.insert(faces.end(), d.begin(), d.end());
-  faces.insert(faces.end(), e.begin(), e.end());
-  std::ranges::sort(faces);
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  std::vector<Shadow> shadows;
-  for (const int f : faces) shadows.push_back(shadow(f));
-  if (interiors_overlap(shadows)) return true;
+  boost::container::static_vector<int, 5> faces{face};
+  Shadows shadows{shadow(face)};
+  for (const auto& some : {d, e}) {
+    for (const int f : some) {
+      if (std::ranges::find(faces, f) != faces.end()) continue;
+      faces.push_back(f);
+      shadows.push_back(shadow(f));
+    }
+  }
+  if (interiors_overlap({shadows.data(), shadows.size()})) return true;
   const std::array<int, 1> over{face};
   for (const int a : d) {
     for (const int side : mesh_.sides(a)) {
@@ -136,16 +158,25 @@ bool LocalExploration::are_connected(int face, int piece, int other) {
   return false;
 }
 
+bool LocalExploration::lies_over(int face, int piece) {
+  Shadows shadows{shadow(face)};
+  for (const int f : pieces_[piece].all()) {
+    if (f != face) shadows.push_back(shadow(f));
+  }
+  return interiors_overlap({shadows.data(), shadows.size()});
+}
+
 // The edge's shadow meets the common interior of the faces, two of them left out.
 bool LocalExploration::meets(int side, std::initializer_list<std::span<const int>> faces, int except,
                              int except_too) {
-  std::vector<Shadow> shadows;
+  Shadows shadows;
   for (const auto& some : faces) {
     for (const int f : some) {
       if (f != except && f != except_too) shadows.push_back(shadow(f));
     }
   }
-  return meets_interior(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side)), shadows);
+  return meets_interior(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side)),
+                        {shadows.data(), shadows.size()});
 }
 
 // --- extending ---
@@ -172,16 +203,9 @@ void LocalExploration::extend(int face) {
 }
 
 int LocalExploration::add_piece(std::array<int, 2> faces, int n_faces) {
-  pieces_.push_back({faces, n_faces});
-  Box box = box_of(faces[0]);
-  if (n_faces == 2) {
-    const Box other = box_of(faces[1]);
-    box = {{std::max(box.min_corner().x(), other.min_corner().x()),
-            std::max(box.min_corner().y(), other.min_corner().y())},
-           {std::min(box.max_corner().x(), other.max_corner().x()),
-            std::min(box.max_corner().y(), other.max_corner().y())}};
-  }
-  const int piece = static_cast<int>(pieces_.size()) - 1;
+  const Box box = n_faces == 1 ? box_of(faces[0]) : common(box_of(faces[0]), box_of(faces[1]));
+  const int piece = static_cast<int>(pieces_.size());
+  pieces_.push_back({faces, n_faces, box});
   piece_index_.insert({box, piece});
   return piece;
 }
@@ -189,15 +213,18 @@ int LocalExploration::add_piece(std::array<int, 2> faces, int n_faces) {
 // Faces of R* whose pairs have been left already have to learn of a new piece.
 void LocalExploration::connect_piece(int piece) {
   std::vector<int> near;
-  const Box box = box_of(pieces_[piece].faces[0]);
+  const Box& box = pieces_[piece].box;
   for (auto it = face_index_.qbegin(bgi::intersects(box)); it != face_index_.qend(); ++it)
     near.push_back(it->second);
   std::ranges::sort(near);
   for (const int face : near) {
     if (is_visited(face, piece)) continue;
     const auto& over = over_[face];
-    if (std::ranges::any_of(over, [&](int other) { return are_connected(face, other, piece); }))
-      visit(face, piece);
+    const bool connected =
+        settled_.contains(face)
+            ? lies_over(face, piece)
+            : std::ranges::any_of(over, [&](int other) { return are_connected(face, other, piece); });
+    if (connected) visit(face, piece);
   }
 }
 

@@ -1,6 +1,7 @@
 // The minimum locally removable region around one inverted face, found without reading anything beyond it.
 #pragma once
 
+#include <boost/container/static_vector.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -60,11 +61,13 @@ class LocalExploration {
   struct Piece {
     std::array<int, 2> faces;
     int n_faces;
+    Box box;
     std::span<const int> all() const { return {faces.data(), static_cast<std::size_t>(n_faces)}; }
   };
   struct Pair {
     int face, piece;
   };
+  using Shadows = boost::container::static_vector<Shadow, 5>;  // of a face and two pieces at the most
 
   const Shadow& shadow(int face);
   bool is_inverted(int face);
@@ -83,6 +86,7 @@ class LocalExploration {
 
   bool crosses(const Pair& pair, int side);
   bool are_connected(int face, int piece, int other);
+  bool lies_over(int face, int piece);
   bool meets(int side, std::initializer_list<std::span<const int>> faces, int except, int except_too);
 
   int cover();
@@ -93,7 +97,8 @@ class LocalExploration {
   const Mesh& mesh_;
   std::unordered_map<int, Shadow> read_;            // faces read so far
   std::vector<Piece> pieces_;                       // their union is X
-  std::unordered_map<int, std::vector<int>> over_;  // pieces of the pairs of each face of R*
+  std::unordered_map<int, std::vector<int>> over_;  // pieces of the pairs of each face of R*, ascending
+  std::unordered_set<int> settled_;                 // faces within one piece whose pairs have all been found
   std::unordered_set<int> extended_;                // faces of J
   std::set<std::array<int, 2>> grown_pairs_;
   std::vector<Pair> pending_;
