@@ -25,7 +25,10 @@ RepairOutcome GlobalUntangling::repair(Mesh& mesh, const RepairOptions& options)
   record.inverted = static_cast<int>(tangles.inverted.size());
   record.degenerate = static_cast<int>(tangles.flat.size());
   record.detect_ms = detecting.milliseconds();
-  if (tangles.empty()) return outcome;
+  if (tangles.empty()) {
+    record.escaped = count_escaped(mesh, options);
+    return outcome;
+  }
 
   const Stopwatch exploring;
   walk_globally(mesh, tangles, repair_.regions());
@@ -40,6 +43,7 @@ RepairOutcome GlobalUntangling::repair(Mesh& mesh, const RepairOptions& options)
   describe(mesh, tangles, record);
   for (int region = 0; region < repair_.regions().count(); ++region) mesh.splice(repair_.patch(region).patch);
   record.splice_ms = splicing.milliseconds();
+  record.escaped = count_escaped(mesh, options);
   return outcome;
 }
 
@@ -64,7 +68,6 @@ void GlobalUntangling::describe(const Mesh& mesh, const Tangles& tangles, Repair
     line.retries = patch.retries;
     line.centre = patch.centre;
     record.replaced += static_cast<int>(faces.size());
-    record.escaped += patch.escaped;
     record.regions.push_back(std::move(line));
   }
   std::sort(record.regions.begin(), record.regions.end(), seeded_before);

@@ -105,11 +105,11 @@ RepairOutcome LocalUntangling::repair_seeds(Mesh& mesh, std::span<const int> see
     record.degenerate += region.record.degenerate;
     record.components += region.record.components;
     record.replaced += static_cast<int>(region.record.faces.size());
-    record.escaped += region.escaped;
     record.doubled_edges += region.doubled_edges;
     record.regions.push_back(std::move(region.record));
   }
   undo.keep();
+  record.escaped = count_escaped(mesh, options);
   return outcome;
 }
 
@@ -170,7 +170,6 @@ void LocalUntangling::finish_region(const Mesh& mesh, const RepairOptions& optio
   region.doubled_edges = avoid_doubled_edges(mesh, sets_, 0, faces);
   auto finished = finish(mesh, sets_, 0, std::move(faces), options.allow_escaped);
   region.patch = std::move(finished.patch);
-  region.escaped = finished.escaped;
   region.defect = std::move(finished.defect);
   region.record.border_edges = mesher_.border_edges();
   region.record.centre = mesher_.centre();
@@ -193,7 +192,6 @@ LocalUntangling::Region LocalUntangling::piece_of_global_walk(const Mesh& mesh, 
     const auto& faces = pieces_.regions().faces(piece);
     region.record = describe_region(mesh, faces, tangles, inverted_components(mesh, tangles.inverted));
     region.patch = pieces_.patch(piece).patch;
-    region.escaped = pieces_.patch(piece).escaped;
     region.record.border_edges = pieces_.patch(piece).border_edges;
     region.record.retries = pieces_.patch(piece).retries;
     region.record.centre = pieces_.patch(piece).centre;

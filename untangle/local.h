@@ -31,7 +31,6 @@ class LocalUntangling : public Strategy {
   struct Region {
     RegionRecord record;
     Patch patch;
-    int escaped = 0;
     int doubled_edges = 0;
     std::optional<Defect> defect;
   };

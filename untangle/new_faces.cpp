@@ -77,16 +77,16 @@ class LabelFlood {
   std::optional<Defect> defect_;
 };
 
-std::vector<int> escaped_vertices(const Mesh& mesh, const NewFaces& faces) {
-  std::vector<int> escaped;
+// The vertex with the smallest number of those that have, or none.
+int first_escaped(const Mesh& mesh, const NewFaces& faces) {
+  int first = none;
   for (int t = 0; t < faces.size(); ++t) {
     for (const int v : faces.triangles[t]) {
-      if (!mesh.is_constrained(v) && mesh.home_label(v) != faces.labels[t]) escaped.push_back(v);
+      const bool escaped = !mesh.is_constrained(v) && mesh.home_label(v) != faces.labels[t];
+      if (escaped && (first == none || mesh.user_vertex(v) < mesh.user_vertex(first))) first = v;
     }
   }
-  std::sort(escaped.begin(), escaped.end());
-  escaped.erase(std::unique(escaped.begin(), escaped.end()), escaped.end());
-  return escaped;
+  return first;
 }
 
 class PatchBuilder {
@@ -228,10 +228,7 @@ Finished finish(const Mesh& mesh, const FaceSets& sets, int set, NewFaces faces,
   Finished result;
   result.defect = LabelFlood(mesh, faces).run();
   if (result.defect) return result;
-  const auto escaped = escaped_vertices(mesh, faces);
-  result.escaped = static_cast<int>(escaped.size());
-  if (!escaped.empty() && !allow_escaped) {
-    const int first = escaped.front();
+  if (const int first = allow_escaped ? none : first_escaped(mesh, faces); first != none) {
     result.defect = Defect{
         .kind = DefectKind::Escaped, .vertices = {mesh.user_vertex(first)}, .where = mesh.position(first)};
     return result;

@@ -26,7 +26,6 @@ struct NewFaces {
 
 struct Finished {
   Patch patch;
-  int escaped = 0;               // vertices in another label than their home
   std::optional<Defect> defect;  // then there is no patch
 };
 

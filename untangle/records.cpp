@@ -57,6 +57,17 @@ RegionRecord describe_region(const Mesh& mesh, const std::vector<int>& faces, co
   return record;
 }
 
+int count_escaped(const Mesh& mesh, const RepairOptions& options) {
+  if (!options.allow_escaped) return 0;
+  std::vector<bool> escaped(mesh.n_vertices(), false);
+  for (int face = 0; face < mesh.n_faces(); ++face) {
+    for (const int v : mesh.triangles()[face]) {
+      if (!mesh.is_constrained(v) && mesh.home_label(v) != mesh.label(face)) escaped[v] = true;
+    }
+  }
+  return static_cast<int>(std::count(escaped.begin(), escaped.end(), true));
+}
+
 int RepairRecord::region_faces() const {
   return total(regions, [](const RegionRecord& r) { return static_cast<int>(r.faces.size()); });
 }

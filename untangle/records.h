@@ -12,4 +12,7 @@ namespace kinemesh {
 RegionRecord describe_region(const Mesh& mesh, const std::vector<int>& faces, const Tangles& tangles,
                              const Components& components);
 
+// Vertices on no constrained edge that lie in another label than their home. None unless that is allowed.
+int count_escaped(const Mesh& mesh, const RepairOptions& options);
+
 }  // namespace kinemesh

@@ -27,7 +27,6 @@ std::optional<Defect> RegionRepair::remesh(const Mesh& mesh, const RepairOptions
   auto finished = finish(mesh, regions_, region, std::move(mesher_.new_faces()), options.allow_escaped);
   if (finished.defect) return finished.defect;
   work.patch = std::move(finished.patch);
-  work.escaped = finished.escaped;
   work.border_edges = mesher_.border_edges();
   work.centre = mesher_.centre();
   return std::nullopt;

@@ -18,7 +18,6 @@ struct RegionPatch {
   Patch patch;  // empty where the region was absorbed by another
   int border_edges = 0;
   int retries = 0;  // enlargements
-  int escaped = 0;
   Point centre{0.0, 0.0};
 };
 

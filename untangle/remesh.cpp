@@ -43,9 +43,9 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   line.border_edges = mesher_.border_edges();
   line.centre = mesher_.centre();
   record.replaced = mesh.n_faces();
-  record.escaped = finished.escaped;
   record.regions.push_back(std::move(line));
   mesh.splice(finished.patch);
+  record.escaped = count_escaped(mesh, options);
   record.splice_ms = working.milliseconds() - record.triangulate_ms;
   return outcome;
 }
