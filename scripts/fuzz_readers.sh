@@ -1,20 +1,22 @@
-#!/bin/sh
-# Fuzzes every reader of mesh files, under the address and undefined-behaviour sanitizers.
-#   scripts/fuzz_readers.sh [executions per reader, default 1000000]
-# Fails on the first finding; the input that made it is kept in build/fuzz/findings.
-set -eu
+#!/usr/bin/env bash
+# Feeds the readers of mesh files broken input, under the address and undefined-behaviour sanitizers.
+#   scripts/fuzz_readers.sh [EXECUTIONS [SEED]]    of each reader, a million unless said otherwise; seed 0 is a new one
+# What a reader stumbles over is left in build/fuzz/findings; the corpus that grew, in build/fuzz/corpus.
+set -euo pipefail
 cd "$(dirname "$0")/.."
-runs=${1:-1000000}
+executions=${1:-1000000}
+seed=${2:-0}
 
+scripts/install_packages.sh
 cmake --preset fuzz
 cmake --build --preset fuzz --target fuzz_readers
-mkdir -p build/fuzz/findings
+
+findings=build/fuzz/findings
+mkdir -p "$findings"
 for format in off obj ply su2 gmsh vtu; do
-  corpus=build/fuzz/corpus/$format
-  mkdir -p "$corpus"
-  echo "== $format: $runs executions"
-  build/fuzz/tests/fuzz/fuzz_$format -runs="$runs" -max_len=4096 -timeout=10 -rss_limit_mb=1024 -seed=1 -close_fd_mask=1 \
-    -verbosity=0 -print_final_stats=1 -artifact_prefix="build/fuzz/findings/$format-" \
-    -dict="tests/fuzz/$format.dict" "$corpus" "tests/fuzz/corpus/$format"
+  grown=build/fuzz/corpus/$format
+  mkdir -p "$grown"
+  echo "fuzzing the reader of $format: $executions executions"
+  "build/fuzz/tests/fuzz/fuzz_$format" "$grown" "tests/fuzz/corpus/$format" -dict="tests/fuzz/$format.dict" \
+    -runs="$executions" -seed="$seed" -max_len=4096 -timeout=20 -artifact_prefix="$findings/$format-" -verbosity=0
 done
-echo "no findings"
