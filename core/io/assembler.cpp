@@ -134,7 +134,7 @@ ReadResult Assembler::finish() {
   choose_diagonals();
   check_and_wind();
   check_markers();
-  if (!quads_.empty()) note(std::to_string(quads_.size()) + " quadrilaterals were split");
+  if (!quads_.empty()) note("quadrilaterals split in two: " + std::to_string(quads_.size()));
   return {std::move(mesh_), std::move(notes_)};
 }
 

@@ -251,8 +251,8 @@ class Drawing {
     std::string text;
     const auto add = [&](std::size_t n, const char* what, const char* colour) {
       if (n == 0) return;
-      text += std::string("<tspan dx=\"12\" fill=\"") + colour + "\">&#9632;</tspan> " + std::to_string(n) +
-              ' ' + what;
+      if (!text.empty()) text += "&#160;&#160; ";
+      text += std::string("<tspan fill=\"") + colour + "\">&#9632;</tspan> " + std::to_string(n) + ' ' + what;
     };
     add(replaced_.size(), "replaced", replaced_colour);
     add(inverted_.size(), "inverted", inverted_colour);

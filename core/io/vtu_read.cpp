@@ -47,7 +47,7 @@ class VtuReader {
     read_points(piece);
     read_cells(piece);
     for (const pugi::xml_node& array : grid.child("FieldData").children("DataArray")) read_field(array);
-    if (n_skipped_ > 0) mesh_.note(std::to_string(n_skipped_) + " vertex and line cells were left out");
+    if (n_skipped_ > 0) mesh_.note("vertex and line cells left out: " + std::to_string(n_skipped_));
     return mesh_.finish();
   }
 
@@ -212,9 +212,11 @@ class VtuReader {
 ReadResult read_vtu(std::string_view text, const std::string& file, const ReadOptions& options) {
   const Parts parts = take_apart(text, file);
   pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(parts.xml.data(), parts.xml.size());
+  // Without a given encoding a zero byte makes it UTF-16, and all offsets refer to a converted text.
+  const pugi::xml_parse_result parsed =
+      document.load_buffer(parts.xml.data(), parts.xml.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!parsed) {
-    const auto before = parts.xml.begin() + parsed.offset;
+    const auto before = parts.xml.begin() + std::min<std::ptrdiff_t>(parsed.offset, std::ssize(parts.xml));
     const int line = 1 + static_cast<int>(std::count(parts.xml.begin(), before, '\n'));
     throw InputError(file, line, std::string("not well-formed XML: ") + parsed.description());
   }

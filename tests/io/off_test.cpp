@@ -41,7 +41,7 @@ TEST(Off, QuadrilateralsAreRefusedOrSplit) {
   refused(quad, 7, "face 0 is a quadrilateral, expected triangles; --split-quads divides it");
   const ReadResult result = parse(quad, Format::Off, true);
   EXPECT_THAT(result.mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
-  EXPECT_THAT(result.notes, ElementsAre("1 quadrilaterals were split"));
+  EXPECT_THAT(result.notes, ElementsAre("quadrilaterals split in two: 1"));
 }
 
 TEST(Off, QuadrilateralsWithAReflexCornerAreSplitThere) {

@@ -62,7 +62,7 @@ TEST(Vtu, LineAndVertexCellsAreLeftOutWithANote) {
   file.cell_data = R"(<DataArray type="Int32" Name="label" format="ascii">7 8 9</DataArray>)";
   const ReadResult result = parse(file.text(), Format::Vtu);
   EXPECT_THAT(result.mesh.labels, ElementsAre(8));
-  EXPECT_THAT(result.notes, ElementsAre("2 vertex and line cells were left out"));
+  EXPECT_THAT(result.notes, ElementsAre("vertex and line cells left out: 2"));
 }
 
 TEST(Vtu, OtherLabelsAreLeftOutWithANote) {
@@ -125,6 +125,12 @@ TEST(Vtu, RefusesFilesItCannotRead) {
   File two_pieces;
   two_pieces.cell_data = "</CellData></Piece><Piece><CellData>";
   refused(two_pieces.text(), 11, "a second piece, expected one");
+}
+
+// Found by fuzzing: taken for UTF-16, the place of the error lay behind the end of the text.
+TEST(Vtu, RefusesWhatLooksLikeUtf16) {
+  refused(std::string("<\0DKTK=\"PolyData\"/=\"\xe4\xe4\xe4\"/>", 26), 1, "not well-formed XML");
+  refused(std::string("\xff\xfe<\0V\0T\0K\0", 10), 1, "not well-formed XML");
 }
 
 TEST(Vtu, RefusesWrongPoints) {
