@@ -1,0 +1,240 @@
+#include "tests/untangle/properties.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/measure.h"
+#include "core/validate.h"
+#include "tests/core/snapshot.h"
+#include "tests/untangle/oracle.h"
+#include "tests/untangle/random_tangles.h"
+
+namespace kinemesh::test {
+namespace {
+
+using std::to_string;
+
+constexpr RepairOptions allowing{.allow_escaped = true};
+
+RepairOutcome repair(Mesh& mesh, const char* strategy) {
+  return make_strategy(strategy)->repair(mesh, allowing);
+}
+
+std::vector<bool> replaced_faces(const Mesh& mesh, const RepairRecord& record) {
+  std::vector<bool> replaced(mesh.n_faces(), false);
+  for (const auto& region : record.regions) {
+    for (const int f : region.faces) replaced[f] = true;
+  }
+  return replaced;
+}
+
+std::string outside_changed(const Mesh& before, const Mesh& after, const RepairRecord& record) {
+  const auto replaced = replaced_faces(before, record);
+  const auto old_state = snapshot_of(before), new_state = snapshot_of(after);
+  for (int f = 0; f < before.n_faces(); ++f) {
+    if (!replaced[f] && old_state.faces[f] != new_state.faces[f]) return "changed face " + to_string(f);
+  }
+  for (int h = 0; h < 2 * before.n_edges(); ++h) {
+    const int face = before.face_of(h);
+    if ((face == none || !replaced[face]) && old_state.halfedges[h] != new_state.halfedges[h])
+      return "changed half-edge " + to_string(h);
+  }
+  if (old_state.coordinates != new_state.coordinates) return "moved a vertex";
+  return "";
+}
+
+std::set<int> escaped_vertices(const Mesh& mesh) {
+  std::set<int> escaped;
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    for (const int v : mesh.triangles()[f]) {
+      if (!mesh.is_constrained(v) && mesh.home_label(v) != mesh.label(f)) escaped.insert(v);
+    }
+  }
+  return escaped;
+}
+
+std::string escaped_miscounted(const Mesh& after, const RepairRecord& record) {
+  return record.escaped == static_cast<int>(escaped_vertices(after).size()) ? ""
+                                                                            : "escaped vertices miscounted";
+}
+
+// Where vertices escape or come home, faces change sides; elsewhere the user's numbers are what they were.
+std::string numbering_changed(const Mesh& before, const Mesh& after) {
+  if (after.n_user_faces() != static_cast<int>(after.domain().triangles.size())) return "faces miscounted";
+  if (!escaped_vertices(before).empty() || !escaped_vertices(after).empty()) return "";
+  const auto labels_by_number = [](const Mesh& mesh) {
+    std::vector<std::pair<int, int>> numbers;
+    for (int f = 0; f < mesh.n_faces(); ++f) {
+      if (!mesh.is_padding(f)) numbers.emplace_back(mesh.user_face(f), mesh.label(f));
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+  };
+  if (labels_by_number(before) != labels_by_number(after)) return "changed the user's numbers";
+  return "";
+}
+
+std::string not_disjoint(const RepairRecord& record) {
+  std::set<int> all;
+  for (const auto& region : record.regions) {
+    for (const int f : region.faces) {
+      if (!all.insert(f).second) return "face " + to_string(f) + " is in two regions";
+    }
+  }
+  return record.replaced == static_cast<int>(all.size()) ? "" : "miscounted the replaced faces";
+}
+
+std::string first_of(std::initializer_list<std::string> sentences) {
+  for (const auto& s : sentences) {
+    if (!s.empty()) return s;
+  }
+  return "";
+}
+
+// Brute-force counterparts of a region's numbers.
+struct RegionCounts {
+  int seed = none, inverted = 0, components = 0, border_edges = 0, crease_edges = 0;
+};
+
+RegionCounts count(const Mesh& mesh, const std::vector<int>& faces) {
+  RegionCounts counts;
+  const std::set<int> region(faces.begin(), faces.end());
+  const auto inverted_faces = oracle::inverted(mesh);
+  const std::set<int> inverted(inverted_faces.begin(), inverted_faces.end());
+  for (const int f : faces) {
+    const int user = mesh.user_face(f);
+    if (inverted.contains(f) && user != none && (counts.seed == none || user < counts.seed))
+      counts.seed = user;
+    counts.inverted += inverted.contains(f);
+    for (const int h : mesh.sides(f)) {
+      const int across = mesh.face_of(Mesh::opposite(h));
+      counts.border_edges += !region.contains(across);
+      counts.crease_edges += inverted.contains(f) && across != none && !inverted.contains(across);
+    }
+  }
+  for (const auto& component : oracle::inverted_components(mesh)) {
+    counts.components += region.contains(component.front());
+  }
+  return counts;
+}
+
+std::string region_wrong(const Mesh& before, const RegionRecord& region) {
+  const auto counts = count(before, region.faces);
+  if (region.seed != counts.seed)
+    return "seed is " + to_string(region.seed) + ", not " + to_string(counts.seed);
+  if (region.inverted != counts.inverted) return "inverted faces miscounted";
+  if (region.components != counts.components) return "components miscounted";
+  if (region.border_edges != counts.border_edges) return "border edges miscounted";
+  if (region.crease_edges != counts.crease_edges) return "crease edges miscounted";
+  if (region.explored != static_cast<int>(region.faces.size())) return "explored outside the region";
+  if (region.gamma != 1 || region.gamma_first_stable != 1) return "gamma is not 1";
+  return "";
+}
+
+bool seeded_in_order(const std::vector<RegionRecord>& regions) {
+  return std::is_sorted(regions.begin(), regions.end(), [](const RegionRecord& a, const RegionRecord& b) {
+    return std::pair(a.seed == none, a.seed) < std::pair(b.seed == none, b.seed);
+  });
+}
+
+Snapshot repaired_with_threads(Mesh mesh, std::size_t n) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, n);
+  const auto outcome = repair(mesh, "global");
+  return snapshot_of(mesh);
+}
+
+std::string remesh_disagrees(Mesh mesh) {
+  const auto outcome = repair(mesh, "remesh");
+  if (!outcome) return "remesh finds no mesh: " + outcome.defect->message();
+  const auto defect = validate(mesh);
+  return defect ? "remesh leaves " + defect->message() : "";
+}
+
+std::string check_repair(const Mesh& before, const Mesh& after, const RepairOutcome& outcome) {
+  if (!outcome) return "failed: " + outcome.defect->message();
+  if (outcome.record.retries() > 0) return to_string(outcome.record.retries()) + " retries";
+  return first_of({contract_broken(before, after, outcome), remesh_disagrees(before)});
+}
+
+// Each culprit the defect names is one.
+bool is_true(const Mesh& mesh, const Defect& defect) {
+  const auto at = [&](int user) { return mesh.position(mesh.vertex_of_user(user)); };
+  switch (defect.kind) {
+    case DefectKind::CoincidentVertices:
+      return defect.vertices.size() == 2 && at(defect.vertices[0]) == at(defect.vertices[1]);
+    case DefectKind::VertexOnEdge:
+    case DefectKind::CrossingEdges:
+      return oracle::constraints_touch(mesh);
+    default:
+      return false;
+  }
+}
+
+std::string failure_wrong(const Mesh& before, const Mesh& after, const RepairOutcome& outcome) {
+  if (outcome) return "no valid mesh exists, but it claims one";
+  if (!is_true(before, *outcome.defect)) return "untrue: " + outcome.defect->message();
+  return snapshot_of(before) == snapshot_of(after) ? "" : "a failure left its traces";
+}
+
+std::string check_lattice_step(Mesh& mesh) {
+  const Mesh before = mesh;
+  const auto outcome = repair(mesh, "global");
+  const bool has_mesh =
+      oracle::coincident_vertices(before).first == none && !oracle::constraints_touch(before);
+  return has_mesh ? check_repair(before, mesh, outcome) : failure_wrong(before, mesh, outcome);
+}
+
+}  // namespace
+
+std::string contract_broken(const Mesh& before, const Mesh& after, const RepairOutcome& outcome) {
+  if (const auto defect = validate(after)) return "not valid: " + defect->message();
+  Mesh again = after;
+  const auto second = repair(again, "global");
+  if (!second || !second.record.regions.empty() || !(snapshot_of(again) == snapshot_of(after)))
+    return "a second repair did something";
+  return first_of({outside_changed(before, after, outcome.record), numbering_changed(before, after),
+                   escaped_miscounted(after, outcome.record), not_disjoint(outcome.record)});
+}
+
+std::string regions_wrong(const Mesh& before, const RepairRecord& record) {
+  std::vector<std::vector<int>> found;
+  for (const auto& region : record.regions) found.push_back(region.faces);
+  std::sort(found.begin(), found.end());
+  if (found != oracle::conflict_pieces(before)) return "the regions are not the pieces of phi(I)*";
+  if (!seeded_in_order(record.regions)) return "the regions are not in the order of their seeds";
+  if (record.components != static_cast<int>(oracle::inverted_components(before).size()))
+    return "components miscounted";
+  for (const auto& region : record.regions) {
+    if (const auto wrong = region_wrong(before, region); !wrong.empty()) return wrong;
+  }
+  return "";
+}
+
+std::string check_random_tangle(std::uint64_t seed) {
+  const auto tangle = random_tangle(seed);
+  Mesh mesh = tangle.mesh;
+  const auto outcome = repair(mesh, "global");
+  auto wrong = check_repair(tangle.mesh, mesh, outcome);
+  const bool is_general = oracle::flat(tangle.mesh).empty();
+  if (wrong.empty() && is_general) wrong = regions_wrong(tangle.mesh, outcome.record);
+  if (wrong.empty() && !(snapshot_of(mesh) == repaired_with_threads(tangle.mesh, 1 + seed % 2)))
+    wrong = "another number of threads, another mesh";
+  return wrong.empty() ? "" : tangle.about + " " + to_string(seed) + ": " + wrong;
+}
+
+std::string check_lattice_tangle(std::uint64_t seed) {
+  auto tangle = lattice_tangle(seed);
+  Random random(seed + 1);
+  for (int step = 0; step < 3; ++step) {
+    const auto wrong = check_lattice_step(tangle.mesh);
+    if (!wrong.empty())
+      return tangle.about + " " + to_string(seed) + ", step " + to_string(step) + ": " + wrong;
+    if (validate(tangle.mesh)) break;  // no valid mesh exists
+    jump_on_lattice(tangle.mesh, random);
+  }
+  return "";
+}
+
+}  // namespace kinemesh::test

@@ -1,0 +1,7 @@
+# Shared by the tests and the sweep.
+set(KINEMESH_TANGLE_SOURCES
+  ../core/sample_meshes.cpp
+  ../core/snapshot.cpp
+  oracle.cpp
+  properties.cpp
+  random_tangles.cpp)
