@@ -1,3 +1,4 @@
+#include "untangle/local.h"
 #include "untangle/strategy.h"
 
 #include <fmt/core.h>
@@ -21,6 +22,7 @@ struct UntangleArguments {
   std::string output;
   std::string strategy = "global";
   std::string report;
+  std::vector<int> seeds;  // the user's numbers; empty: all tangles
 };
 
 // What a report compares: the file as it was read and as it was written.
@@ -74,16 +76,38 @@ int no_valid_mesh(const UntangleArguments& arguments, const Defect& defect) {
   return not_valid;
 }
 
+RepairOutcome repair_seeds(const UntangleArguments& arguments, Mesh& mesh) {
+  const auto faces = mesh.faces_in_user_order();
+  std::vector<int> seeds;
+  for (const int seed : arguments.seeds) {
+    if (seed < 0 || seed >= mesh.n_user_faces()) {
+      throw InputError(
+          fmt::format("--seed {}: {} has faces 0 to {}", seed, arguments.mesh.path, faces.size() - 1));
+    }
+    seeds.push_back(faces[seed]);
+  }
+  return LocalUntangling().repair_seeds(mesh, seeds, {});
+}
+
 int untangle(const UntangleArguments& arguments) try {
+  if (!arguments.seeds.empty() && arguments.strategy != "local") {
+    throw InputError("--seed goes with --strategy local only");
+  }
   require_writable(arguments.output);
   const std::unique_ptr<Strategy> strategy = make_strategy(arguments.strategy);
   const MeshData data = read(arguments.mesh);
   Mesh mesh = build(arguments.mesh, data);
-  const RepairOutcome outcome = strategy->repair(mesh, {});
+  const RepairOutcome outcome =
+      arguments.seeds.empty() ? strategy->repair(mesh, {}) : repair_seeds(arguments, mesh);
   if (!outcome) return no_valid_mesh(arguments, *outcome.defect);
 
   const MeshData repaired = mesh.domain();
   const BeforeAndAfter faces{count_bad_faces(data), count_bad_faces(repaired)};
+  if (outcome.record.doubled_edges > 0) {
+    print_note(
+        fmt::format("{}: {} edges join vertices that another edge joins too, as the mesh is still tangled",
+                    arguments.output, outcome.record.doubled_edges));
+  }
   write(arguments.output, repaired);
   if (!arguments.report.empty()) {
     const Json report = to_json(arguments, mesh, outcome.record, faces);
@@ -105,6 +129,10 @@ void add_untangle(CLI::App& program, Action& action) {
       ->required();
   command.add_option("--strategy", arguments->strategy, "How; `kinemesh list` names the strategies")
       ->capture_default_str();
+  command
+      .add_option("--seed", arguments->seeds,
+                  "Inverted faces whose regions alone are untangled; with --strategy local")
+      ->delimiter(',');
   command.add_option("--report", arguments->report, "File for what was done, as JSON");
   command.footer(
       "No vertex moves, none is added or lost, and all keep their order. Faces outside the replaced regions\n"

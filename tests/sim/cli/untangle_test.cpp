@@ -127,6 +127,53 @@ TEST_F(Untangle, RemeshReplacesEverythingAsOneRegion) {
   for (int i = 0; i < 72; ++i) EXPECT_EQ(json["regions"][0]["faces"][i], i);
 }
 
+TEST_F(Untangle, LocalRepairsOneRegionAfterTheOther) {
+  write("raw.off", grid_off(8, {{20, 4.3, 2.2}, {66, 2.4, 5.4}}));
+  ASSERT_EQ(run({"convert", "raw.off", "in.off"}).code, 0);
+  const Result result =
+      run({"untangle", "in.off", "-o", "out.off", "--strategy", "local", "--report", "r.json"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(run({"check", "out.off"}).code, 0);
+  const Json json = report();
+  EXPECT_EQ(json["strategy"], "local");
+  EXPECT_EQ(json["inverted_after"], 0);
+  EXPECT_GE(json["regions"].size(), 2u);
+  expect_same_outside("in.off", "out.off", json);
+}
+
+TEST_F(Untangle, SeedRepairsItsRegionAlone) {
+  write("raw.off", grid_off(8, {{20, 4.3, 2.2}, {66, 2.4, 5.4}}));
+  ASSERT_EQ(run({"convert", "raw.off", "in.off"}).code, 0);
+  ASSERT_EQ(run({"untangle", "in.off", "-o", "all.off", "--report", "all.json"}).code, 0);
+  const Json all = report("all.json");
+  ASSERT_EQ(all["regions"].size(), 2u);
+  const std::string seed = std::to_string(all["regions"][1]["seed"].get<int>());
+  const Result result = run(
+      {"untangle", "in.off", "-o", "out.off", "--strategy", "local", "--seed", seed, "--report", "r.json"});
+  EXPECT_EQ(result.code, 1) << result.err;  // the other tangle remains
+  const Json json = report();
+  ASSERT_EQ(json["regions"].size(), 1u);
+  EXPECT_EQ(json["regions"][0]["faces"], all["regions"][1]["faces"]);
+  EXPECT_EQ(json["inverted_after"].get<int>() + json["regions"][0]["inverted"].get<int>(),
+            json["inverted_before"]);
+  expect_same_outside("in.off", "out.off", json);
+}
+
+TEST_F(Untangle, SeedHasToBeAnInvertedFace) {
+  write("in.off", grid_off(4, {{6, 2.4, 1.2}}));
+  const std::vector<std::string> local{"untangle",   "in.off", "-o",    "out.off",
+                                       "--strategy", "local",  "--seed"};
+  const auto with_seed = [&](const char* seed) {
+    auto words = local;
+    words.push_back(seed);
+    return run(words);
+  };
+  expect_error(with_seed("31"), 2, {"31", "upright"});
+  expect_error(with_seed("32"), 2, {"32", "faces 0 to 31"});
+  expect_error(with_seed("x"), 2, {"seed"});
+  EXPECT_EQ(files(), std::vector<std::string>{"in.off"});
+}
+
 TEST_F(Untangle, MarkersSurvive) {
   const char* const
       su2 =  // vertex 4, the middle of a square of four, is pushed out of its fan towards the top
@@ -228,6 +275,34 @@ TEST_F(SharedCase, RegionsAreTheExpectedOnes) {
     EXPECT_EQ(json["inverted_before"], expected["inverted"]);
   }
   EXPECT_GT(n_cases, 0);
+}
+
+TEST_F(SharedCase, MinimumRegionsAreTheExpectedOnes) {
+  const fs::path folder = fs::path(KINEMESH_SHARED_DIR) / "cases";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".off") continue;
+    fs::path answer = entry.path();
+    const Json regions = Json::parse(read_text(answer.replace_extension(".json")))["regions"];
+    ASSERT_EQ(run({"convert", entry.path().string(), "in.off"}).code, 0);
+    for (const Json& expected : regions) {
+      SCOPED_TRACE(entry.path().filename().string() + " seed " + expected["seed"].dump());
+      const Result result = run({"untangle", "in.off", "-o", "out.off", "--strategy", "local", "--seed",
+                                 expected["seed"].dump(), "--report", "r.json"});
+      const Json json = report();
+      EXPECT_EQ(result.code, json["inverted_after"] == 0 ? 0 : 1) << result.err;
+      ASSERT_EQ(json["regions"].size(), 1u);
+      const Json& region = json["regions"][0];
+      EXPECT_EQ(region["faces"], expected["triangles"]);
+      EXPECT_EQ(region["explored"], expected["size"]);
+      for (const char* key : {"seed", "inverted", "components", "gamma_first_stable", "self_overlap"}) {
+        EXPECT_EQ(region[key], expected[key]) << key;
+      }
+      EXPECT_EQ(region["gamma"], expected["gamma"][0]);
+      EXPECT_EQ(region["retries"], 0);
+      expect_same_outside("in.off", "out.off", json);
+    }
+  }
 }
 
 }  // namespace
