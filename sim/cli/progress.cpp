@@ -23,7 +23,7 @@ std::string clock_time(double seconds) {
 
 std::string describe(const StepRecord& record, const RunPlan& plan, int n_faces) {
   const RepairRecord& repair = record.repair;
-  return fmt::format("step {}/{}  t = {:.5g}  inverted {}  regions {}  replaced {:.3g} %  {:.3g} ms",
+  return fmt::format("step {}/{}  t = {:.5g}  inverted {}  regions {}  replaced {:.2f} %  {:.1f} ms",
                      record.step, plan.steps, record.time, repair.inverted + repair.degenerate,
                      repair.regions.size(), 100.0 * repair.replaced / std::max(1, n_faces), record.total_ms);
 }

@@ -55,19 +55,26 @@ void print_plan(const Scenario& scenario, const RunPlan& plan) {
   print_row("folder", plan.directory.string());
 }
 
+// Three digits, and never an exponent.
+std::string milliseconds(double ms) {
+  return ms < 1000.0 ? fmt::format("{:.3g}", ms) : fmt::format("{:.0f}", ms);
+}
+
 std::string in_phases(const PhaseTimes& ms, int steps) {
   const double n = std::max(1, steps);
-  return fmt::format("move {:.3g}, detect {:.3g}, explore {:.3g}, triangulate {:.3g}, splice {:.3g}",
-                     ms.move / n, ms.detect / n, ms.explore / n, ms.triangulate / n, ms.splice / n);
+  return fmt::format("move {}, detect {}, explore {}, triangulate {}, splice {}", milliseconds(ms.move / n),
+                     milliseconds(ms.detect / n), milliseconds(ms.explore / n),
+                     milliseconds(ms.triangulate / n), milliseconds(ms.splice / n));
 }
 
 void print_times(const RunSummary& summary, const RemeshProbe& probe) {
   if (summary.steps == 0) return;
   const double step_ms = summary.ms.total / summary.steps;
-  print_row("time of a step", fmt::format("{:.3g} ms ({})", step_ms, in_phases(summary.ms, summary.steps)));
+  print_row("time of a step",
+            fmt::format("{} ms ({})", milliseconds(step_ms), in_phases(summary.ms, summary.steps)));
   if (const auto remesh_ms = probe.step_ms(); remesh_ms && step_ms > 0.0)
     print_row("with a full re-mesh",
-              fmt::format("{:.3g} ms, {:.3g} times as long", *remesh_ms, *remesh_ms / step_ms));
+              fmt::format("{} ms, {:.3g} times as long", milliseconds(*remesh_ms), *remesh_ms / step_ms));
 }
 
 void print_summary(const RunSummary& summary, const RemeshProbe& probe) {
