@@ -131,7 +131,7 @@ void add_untangle(CLI::App& program, Action& action) {
       ->capture_default_str();
   command
       .add_option("--seed", arguments->seeds,
-                  "Inverted faces whose regions alone are untangled; with --strategy local")
+                  "Untangle only the regions of these inverted faces; for local only")
       ->delimiter(',');
   command.add_option("--report", arguments->report, "File for what was done, as JSON");
   command.footer(
