@@ -30,7 +30,7 @@ class Comparison {
       const bool first = !expected_.contains(component);
       if (first) {
         expected_.emplace(component, expect(component));
-        ++counts.regions;
+        count(expected_.at(component), counts);
         if (is_small()) compare_minimum(component, counts);
       }
       if (first || options_.every_seed) compare_seed(face, expected_.at(component), counts);
@@ -69,15 +69,14 @@ class Comparison {
     EXPECT_EQ(fast.gamma(), 1) << seed;
     EXPECT_EQ(fast.rounds() > 0, region.growths > 0) << seed;
     EXPECT_EQ(fast.grown() > 0, region.growths > 0) << seed;
-    count(expected, counts);
+    ++counts.seeds;
   }
 
   static void count(const Expected& expected, Counts& counts) {
     const auto& region = expected.region;
-    ++counts.seeds;
+    ++counts.regions;
     counts.extended += region.components.size() > 1;
     counts.gamma_2 += region.gamma_first_stable >= 2;
-    counts.grown += region.growths > 0;
     counts.grown_twice += region.growths > 1;
     counts.overstepped += expected.overstepped;
     counts.self_overlapping += expected.self_overlapping;
@@ -94,21 +93,26 @@ class Comparison {
 }  // namespace
 
 std::ostream& operator<<(std::ostream& out, const Counts& c) {
-  return out << c.tangles << " meshes (" << c.tangled << " tangled, " << c.skipped << " degenerate), "
-             << c.regions << " components, " << c.seeds << " seeds: " << c.extended << " extended, "
-             << c.gamma_2 << " first stable with gamma >= 2, " << c.grown << " grown (" << c.grown_twice
-             << " more than once), " << c.overstepped << " overstepped by whole faces, " << c.self_overlapping
-             << " overlap themselves, at most " << c.largest << " faces; " << c.minima
-             << " compared with all subsets";
+  return out << c.tangled << " tangled meshes\n"
+             << c.valid << " valid meshes\n"
+             << c.degenerate << " meshes left out, not in general position\n"
+             << c.seeds << " seeds explored from\n"
+             << c.regions << " inverted components\n"
+             << c.minima << " whose region was compared with the minimum over all subsets\n"
+             << c.extended << " whose region has further components\n"
+             << c.gamma_2 << " first stable with gamma >= 2\n"
+             << c.grown_twice << " grown more than once\n"
+             << c.overstepped << " overstepped by walking whole faces\n"
+             << c.self_overlapping << " whose region overlaps itself\n"
+             << c.largest << " faces in the largest region\n";
 }
 
 void compare(const MeshData& tangle, const std::string& name, Counts& counts, const CompareOptions& options) {
   SCOPED_TRACE(name);
   const Mesh mesh = build_mesh(tangle);
-  ++counts.tangles;
   auto plane = subdivide(mesh);
   if (!is_general(mesh, plane)) {
-    ++counts.skipped;
+    ++counts.degenerate;
     return;
   }
   const bool failed_before = ::testing::Test::HasFailure();
@@ -118,7 +122,7 @@ void compare(const MeshData& tangle, const std::string& name, Counts& counts, co
   } catch (const std::logic_error& error) {
     ADD_FAILURE() << error.what();
   }
-  counts.tangled += counts.seeds > seeds_before;
+  ++(counts.seeds > seeds_before ? counts.tangled : counts.valid);
   if (::testing::Test::HasFailure() && !failed_before) {
     write_mesh(::testing::TempDir() + name + ".off", tangle);
   }

@@ -10,16 +10,20 @@
 
 namespace kinemesh::test {
 
+// By components, of which each was compared from all its faces.
 struct Counts {
-  int tangles = 0, tangled = 0, skipped = 0;  // meshes; with inverted faces; not in general position
-  int seeds = 0, regions = 0;                 // inverted faces explored from; inverted components
-  int minima = 0;                             // regions that were compared with the minimum over all subsets
-  int extended = 0;                           // seeds whose region has more components than the seed's
-  int gamma_2 = 0, grown = 0, grown_twice = 0;  // seeds
-  int overstepped = 0;                          // seeds from which walking whole faces takes more
-  int self_overlapping = 0;                     // seeds
-  int largest = 0;                              // faces of a region
+  int tangled = 0, valid = 0, degenerate = 0;  // meshes; degenerate ones are left out
+  int seeds = 0;                               // inverted faces explored from
+  int regions = 0;                             // inverted components
+  int minima = 0;                              // compared with the minimum over all subsets
+  int extended = 0;                            // further components in the region
+  int gamma_2 = 0;                             // gamma >= 2 when extending first came to rest: shadows grow
+  int grown_twice = 0;
+  int overstepped = 0;       // walking whole faces takes more; not counted where shadows grow
+  int self_overlapping = 0;  // border of R* not simple
+  int largest = 0;           // faces of a region
 };
+// One "number what" a line.
 std::ostream& operator<<(std::ostream& out, const Counts& counts);
 
 struct CompareOptions {
