@@ -14,9 +14,10 @@ cmake --build --preset fuzz --target fuzz_readers
 findings=build/fuzz/findings
 mkdir -p "$findings"
 for format in off obj ply su2 gmsh vtu; do
-  grown=build/fuzz/corpus/$format
+  grown=build/fuzz/corpus/$format log=build/fuzz/$format.log
   mkdir -p "$grown"
   echo "fuzzing the reader of $format: $executions executions"
   "build/fuzz/tests/fuzz/fuzz_$format" "$grown" "tests/fuzz/corpus/$format" -dict="tests/fuzz/$format.dict" \
-    -runs="$executions" -seed="$seed" -max_len=4096 -timeout=20 -artifact_prefix="$findings/$format-" -verbosity=0
+    -runs="$executions" -seed="$seed" -max_len=4096 -timeout=20 -artifact_prefix="$findings/$format-" \
+    > "$log" 2>&1 || { cat "$log"; exit 1; }
 done
