@@ -23,6 +23,12 @@ struct Outline {
     if (fresh) data.points.push_back(p);
     return place->second;
   }
+  void add(const Loop& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int from = vertex(loop[i]);
+      edges.push_back({from, vertex(loop[(i + 1) % loop.size()])});
+    }
+  }
 };
 
 bool inside_u(const Point& p) {
@@ -53,19 +59,17 @@ Loop reversed(Loop loop) {
   return loop;
 }
 
-MeshData domain_of(const std::vector<Loop>& loops, const std::vector<Point>& inside) {
+MeshData domain_of(const std::vector<Loop>& loops, const std::vector<Point>& inside,
+                   const std::vector<Loop>& lines) {
   Outline outline;
-  for (const auto& loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const int from = outline.vertex(loop[i]);
-      outline.edges.push_back({from, outline.vertex(loop[(i + 1) % loop.size()])});
-    }
-  }
+  for (const auto& loop : loops) outline.add(loop);
+  const std::size_t n_border = outline.edges.size();
+  for (const auto& line : lines) outline.add(line);
   for (const auto& p : inside) outline.vertex(p);
   Triangulation triangulation;
   if (Triangulator().triangulate(outline.data.points, outline.edges, triangulation))
     throw std::logic_error("the sample's loops touch");
-  const auto winding = winding_numbers(triangulation, outline.edges);
+  const auto winding = winding_numbers(triangulation, std::span(outline.edges).first(n_border));
   for (std::size_t t = 0; t < winding.size(); ++t) {
     if (winding[t] == 1) outline.data.triangles.push_back(triangulation.triangles[t]);
   }

@@ -32,9 +32,11 @@ Loop rectangle(const Point& low, const Point& high);
 Loop circle(const Point& centre, double radius, int n);  // counter-clockwise, snapped
 Loop reversed(Loop loop);                                // the border of a hole
 
-// Delaunay triangulation of what the loops enclose, with `inside` as further vertices. Points of loops at the
-// same place become one vertex. Vertices in the order given, those of the loops first.
-MeshData domain_of(const std::vector<Loop>& loops, const std::vector<Point>& inside = {});
+// Delaunay triangulation of what the loops enclose, with `inside` as further vertices and the edges of
+// `lines`, closed like loops. Points at the same place become one vertex. Vertices in the order given: loops,
+// lines, inside.
+MeshData domain_of(const std::vector<Loop>& loops, const std::vector<Point>& inside = {},
+                   const std::vector<Loop>& lines = {});
 
 // `n` vertices in [0,1]^2, the corners first, the others random, snapped.
 MeshData random_square(int n, Random& random);

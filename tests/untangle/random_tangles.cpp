@@ -128,8 +128,8 @@ bool is_left_of_all(const Loop& convex, const Point& p) {
 Tangle interface(Random& random) {
   const Point centre{0.5, 0.5};
   const auto ring = circle(centre, 0.3, 5 + random.below(12));
-  auto data = domain_of({rectangle({0, 0}, {1, 1}), ring, reversed(ring)},
-                        random_points(random, 10 + random.below(50), 0, 1));
+  auto data =
+      domain_of({rectangle({0, 0}, {1, 1})}, random_points(random, 10 + random.below(50), 0, 1), {ring});
   for (const auto& [a, b, c] : data.triangles) {
     const Point middle = (data.points[a] + data.points[b] + data.points[c]) / 3.0;
     data.labels.push_back(is_left_of_all(ring, middle) ? 7 : 3);
@@ -139,6 +139,37 @@ Tangle interface(Random& random) {
       turn(centre, any_angle(random), {random.between(-0.15, 0.15), random.between(-0.15, 0.15)});
   move_constrained(t.mesh, [&](const Point& p) { return glm::distance(p, centre) < 0.35 ? spin(p) : p; });
   jitter(t.mesh, random);
+  return t;
+}
+
+// Small islands in the cells of [0,1]^2 that move within their cells, or to others.
+Tangle archipelago(Random& random) {
+  const int n = 3 + random.below(2);
+  const double cell = 1.0 / n, size = 0.3 * cell;
+  const auto corner_in = [&](int c) {
+    return cell * Point(c % n + random.between(0.05, 0.6), c / n + random.between(0.05, 0.6));
+  };
+  std::vector<Loop> islands;
+  std::vector<Point> inside;
+  for (int c = 0; c < n * n; ++c) {
+    const Point low = snapped(corner_in(c));
+    islands.push_back(rectangle(low, snapped(low + size)));
+    inside.push_back(snapped(low + size * Point(random.between(0.1, 0.9), random.between(0.1, 0.9))));
+  }
+  Tangle t{"archipelago", build_mesh(domain_of(islands, inside), {.frame = 0.4})};
+  snap_frame(t.mesh);
+  const int change_cells = random.below(3) == 0 ? 1 + random.below(n * n) : 0;
+  const double step = random.between(0, 1);
+  std::vector<Point> shift;
+  for (int c = 0; c < n * n; ++c) {
+    const Point to = corner_in((c + change_cells) % (n * n));
+    shift.push_back(snapped((change_cells > 0 ? 1.0 : step) * (to - islands[c][0])));
+  }
+  const auto carry = [&](const Point& p) {
+    return p + shift[static_cast<int>(p.y / cell) * n + static_cast<int>(p.x / cell)];
+  };
+  move_free(t.mesh, carry);
+  move_constrained(t.mesh, carry);
   return t;
 }
 
@@ -228,7 +259,7 @@ void snap_frame(Mesh& mesh) {
 
 Tangle random_tangle(std::uint64_t seed) {
   Random random(seed);
-  switch (random.below(7)) {
+  switch (random.below(8)) {
     case 0:
       return square(random);
     case 1:
@@ -241,6 +272,8 @@ Tangle random_tangle(std::uint64_t seed) {
       return nested_islands(random);
     case 5:
       return bow_tie(random);
+    case 6:
+      return archipelago(random);
     default:
       return interface(random);
   }

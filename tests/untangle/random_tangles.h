@@ -18,7 +18,7 @@ struct Tangle {
 };
 
 // In general position but for freaks: squares, U-shapes, holes that turn, islands nested in holes, bow-ties,
-// an interface between labels, frames.
+// islands that change places, an interface between labels, frames.
 Tangle random_tangle(std::uint64_t seed);
 
 // A lattice whose vertices move by multiples of half a cell: jumps, permutations, swaps, collapsing rows,

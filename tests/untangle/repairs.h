@@ -1,0 +1,31 @@
+// Short words for the tests of repairs.
+#pragma once
+
+#include <string>
+
+#include "core/build.h"
+#include "core/validate.h"
+#include "untangle/strategy.h"
+
+namespace kinemesh::test {
+
+inline RepairOutcome repair(Mesh& mesh, bool allow_escaped = false, const std::string& strategy = "global") {
+  return make_strategy(strategy)->repair(mesh, {.allow_escaped = allow_escaped});
+}
+
+inline void place(Mesh& mesh, int user, const Point& p) {
+  mesh.positions()[mesh.vertex_of_user(user)] = p;
+}
+
+inline Point position_of(const Mesh& mesh, int user) {
+  return mesh.position(mesh.vertex_of_user(user));
+}
+
+// The domain's faces among these, by the user's numbers, ascending.
+std::vector<int> user_faces(const Mesh& mesh, const std::vector<int>& faces);
+
+inline std::string message(const std::optional<Defect>& defect) {
+  return defect ? defect->message() : "";
+}
+
+}  // namespace kinemesh::test
