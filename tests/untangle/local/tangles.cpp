@@ -99,6 +99,12 @@ void twist(Random& random, std::span<Point> points) {
   }
 }
 
+double near_node(Random& random, double x) {
+  constexpr double nodes = 16.0;
+  const double node = std::clamp(std::round(nodes * x), 1.0, nodes - 1.0) / nodes;
+  return node + std::ldexp(random.below(4001) - 2000, -62);
+}
+
 }  // namespace
 
 MeshData random_tangle(std::uint64_t seed, Tangling tangling, int n_vertices) {
@@ -136,6 +142,16 @@ MeshData random_tangle(std::uint64_t seed) {
   const double share = random.uniform();
   const int n = smallest + static_cast<int>((largest + 1 - smallest) * share * share * share);
   return random_tangle(seed, static_cast<Tangling>(random.below(n_tanglings)), n);
+}
+
+MeshData nearly_degenerate_tangle(std::uint64_t seed) {
+  auto mesh = random_tangle(seed);
+  Random random(seed);
+  for (Point& p : mesh.points) {
+    const bool on_border = p.x == 0.0 || p.x == 1.0 || p.y == 0.0 || p.y == 1.0;
+    if (!on_border) p = {near_node(random, p.x), near_node(random, p.y)};
+  }
+  return mesh;
 }
 
 }  // namespace kinemesh::test

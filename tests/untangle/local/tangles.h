@@ -32,4 +32,8 @@ MeshData random_tangle(std::uint64_t seed, Tangling tangling, int n_vertices);
 // The same with 5 to 60 vertices, mostly few, and any tangling.
 MeshData random_tangle(std::uint64_t seed);
 
+// The same with all inner vertices within some ulps of the nodes of a coarse grid: in general position, but
+// many predicates are nearly 0.
+MeshData nearly_degenerate_tangle(std::uint64_t seed);
+
 }  // namespace kinemesh::test
