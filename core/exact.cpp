@@ -16,6 +16,7 @@ Kernel::Point_2 cgal(const Point& p) {
 }  // namespace
 
 Orientation orientation_exact(const Point& a, const Point& b, const Point& c) {
+  if (a == b || b == c || c == a) return Orientation::Collinear;  // neighbours share corners: the common case
   return static_cast<Orientation>(CGAL::orientation(cgal(a), cgal(b), cgal(c)));
 }
 

@@ -1,7 +1,10 @@
 #include "core/overlap.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
+#include <boost/container/static_vector.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
 #include <vector>
 
 #include "core/predicates.h"
@@ -123,6 +126,42 @@ bool has_point(const Halfplane& h, const Halfplane& i, const Halfplane& j) {
   return turn_hi * sign_of_farkas_sum(h, i, j) < 0;
 }
 
+// --- a common point, found without exact arithmetic ---
+
+constexpr std::size_t most_triangles = 5;
+using Polygon = boost::container::static_vector<Point, 3 * most_triangles + 3>;
+
+// What rounded arithmetic leaves of a convex polygon on the left of a -> b.
+Polygon clip(const Polygon& polygon, const Halfplane& h) {
+  const auto distance = [&](const Point& p) {
+    return cross(difference<double>(h.b, h.a), difference<double>(p, h.a));
+  };
+  Polygon left;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+    const double at_p = distance(p), at_q = distance(q);
+    if (left.size() + 2 > left.capacity()) return {};
+    if (at_p > 0.0) left.push_back(p);
+    if ((at_p > 0.0) != (at_q > 0.0)) left.push_back(p + at_p / (at_p - at_q) * (q - p));
+  }
+  return left;
+}
+
+// True if the middle of what clipping leaves is, exactly, inside all of the triangles. Fast, and seldom false
+// where they overlap.
+bool have_evident_point(std::span<const Shadow> triangles) {
+  if (triangles.size() > most_triangles) return false;
+  Polygon rest(triangles[0].begin(), triangles[0].end());
+  for (const auto& t : triangles.subspan(1)) {
+    for (const auto& h : sides_of(t)) rest = clip(rest, h);
+  }
+  Point middle(0.0);
+  for (const auto& p : rest) middle += p / static_cast<double>(rest.size());
+  if (rest.empty() || !std::isfinite(middle.x + middle.y)) return false;
+  return std::all_of(triangles.begin(), triangles.end(),
+                     [&](const Shadow& t) { return strictly_inside(middle, t); });
+}
+
 // --- a segment and two half-planes ---
 
 // The signed distance from the side, up to a factor, is u at one end of the segment and w at the other.
@@ -230,6 +269,7 @@ bool interiors_overlap(std::span<const Shadow> triangles) {
   const std::size_t n = triangles.size();
   if (n < 2) return true;
   if (n == 2) return interiors_overlap(triangles[0], triangles[1]);
+  if (have_evident_point(triangles)) return true;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
       for (std::size_t k = j + 1; k < n; ++k) {
@@ -242,7 +282,7 @@ bool interiors_overlap(std::span<const Shadow> triangles) {
 
 bool meets_interior(const Point& a, const Point& b, std::span<const Shadow> triangles) {
   if (a == b) return false;
-  std::vector<Halfplane> leaving, entering;  // on the way from a to b
+  boost::container::small_vector<Halfplane, 9> leaving, entering;  // on the way from a to b
   for (const auto& t : triangles) {
     for (const auto& h : sides_of(t)) {
       const bool in_at_a = orientation(h.a, h.b, a) == Orientation::CounterClockwise;

@@ -1,20 +1,22 @@
 #include "untangle/local_exploration.h"
 
 #include <algorithm>
-#include <ranges>
 
-#include "core/predicates.h"
+#include "untangle/shadow_growth.h"
 
 namespace kinemesh {
-namespace bgi = boost::geometry::index;
-
 namespace {
 
-template <class Box>
-Box common(const Box& a, const Box& b) {
-  return {
-      {std::max(a.min_corner().x(), b.min_corner().x()), std::max(a.min_corner().y(), b.min_corner().y())},
-      {std::min(a.max_corner().x(), b.max_corner().x()), std::min(a.max_corner().y(), b.max_corner().y())}};
+// T, D and E have a common interior point.
+bool have_common_point(const Sheet& sheet, const ConvexPiece& d, const ConvexPiece& e) {
+  boost::container::static_vector<Shadow, 5> shadows{sheet.shadow};
+  for (std::size_t i = 0; i < d.shadows.size(); ++i) {
+    if (d.faces[i] != sheet.face) shadows.push_back(d.shadows[i]);
+  }
+  for (std::size_t i = 0; i < e.shadows.size(); ++i) {
+    if (e.faces[i] != sheet.face && !d.has(e.faces[i])) shadows.push_back(e.shadows[i]);
+  }
+  return interiors_overlap({shadows.data(), shadows.size()});
 }
 
 }  // namespace
@@ -28,155 +30,127 @@ bool LocalExploration::run(int seed) {
     walk();
     gamma_ = cover();
   }
-  return gamma_ == 1;
+  return gamma_ == 1 && !met_flat_face_;
 }
 
 std::vector<int> LocalExploration::faces() const {
   std::vector<int> all;
-  for (const auto& [face, pieces] : over_) all.push_back(face);
+  for (const auto& sheet : sheets_.all()) {
+    if (sheet.is_in_region) all.push_back(sheet.face);
+  }
   std::sort(all.begin(), all.end());
   return all;
 }
 
 std::vector<Cell> LocalExploration::cells() const {
   std::vector<Cell> all;
-  for (const auto& [face, pieces] : over_) {
-    for (const int piece : pieces) {
-      if (pieces_[piece].n_faces == 1) all.push_back({face, pieces_[piece].faces[0]});
+  for (const auto& sheet : sheets_.all()) {
+    for (std::size_t i = 0; i < sheet.over.size(); ++i) {
+      const auto& piece = pieces_[sheet.over[i]];
+      if (sheet.visited[i] && !piece.is_grown()) all.push_back({sheet.face, piece.faces[0]});
     }
   }
-  std::ranges::sort(all, {}, [](const Cell& cell) { return std::pair(cell.face, cell.inverted); });
+  std::sort(all.begin(), all.end(), [](const Cell& a, const Cell& b) {
+    return std::pair(a.face, a.inverted) < std::pair(b.face, b.inverted);
+  });
   return all;
-}
-
-// --- reading ---
-
-// The only place that reads a face's corners.
-const Shadow& LocalExploration::shadow(int face) {
-  return read_.try_emplace(face, mesh_.corners(face)).first->second;
-}
-
-bool LocalExploration::is_inverted(int face) {
-  const auto& [a, b, c] = shadow(face);
-  return orientation(a, b, c) == Orientation::Clockwise;
-}
-
-LocalExploration::Box LocalExploration::box_of(int face) {
-  const auto& [a, b, c] = shadow(face);
-  return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
-          {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})}};
 }
 
 // --- walking ---
 
-bool LocalExploration::is_visited(int face, int piece) const {
-  const auto found = over_.find(face);
-  return found != over_.end() && std::ranges::binary_search(found->second, piece);
+// Pre: the piece's interior meets that of the face's shadow.
+void LocalExploration::visit(Sheet& sheet, int piece) {
+  if (sheet.turn == Orientation::Collinear) {
+    met_flat_face_ = true;
+    return;
+  }
+  sheets_.open(sheet, pieces_);
+  if (sheet.is_within_piece) return mark_all(sheet);
+  const int place = sheet.place_of(piece);
+  if (!sheet.visited[place]) mark(sheet, place);
 }
 
-void LocalExploration::visit(int face, int piece) {
-  auto& pieces = over_[face];
-  if (pieces.empty()) face_index_.insert({box_of(face), face});
-  pieces.insert(std::ranges::lower_bound(pieces, piece), piece);
-  pending_.push_back({face, piece});
+void LocalExploration::mark(Sheet& sheet, int place) {
+  sheet.visited[place] = sheet.is_in_region = true;
+  pending_.push_back({&sheet, sheet.over[place]});
 }
 
-void LocalExploration::walk() {
-  while (!pending_.empty()) {
-    const auto pair = pending_.back();
-    pending_.pop_back();
-    leave(pair);
+void LocalExploration::mark_all(Sheet& sheet) {
+  for (std::size_t place = 0; place < sheet.over.size(); ++place) {
+    if (!sheet.visited[place]) mark(sheet, static_cast<int>(place));
   }
 }
 
-void LocalExploration::leave(const Pair& pair) {
-  if (!extended_.contains(pair.face) && is_inverted(pair.face)) extend(pair.face);
-  for (const int side : mesh_.sides(pair.face)) cross(pair, side);
-  change_piece(pair);
+void LocalExploration::walk() {
+  while (!pending_.empty() && !met_flat_face_) {
+    const auto pair = pending_.back();
+    pending_.pop_back();
+    if (pair.sheet->is_inverted() && pieces_.find({pair.sheet->face, none}) == none) extend(pair.sheet->face);
+    for (const int side : mesh_.sides(pair.sheet->face)) cross(pair, side);
+    change_piece(pair);
+  }
 }
 
 void LocalExploration::cross(const Pair& pair, int side) {
   const int beyond = across(side);
-  if (beyond != none && !is_visited(beyond, pair.piece) && crosses(pair, side)) visit(beyond, pair.piece);
+  if (beyond == none) return;
+  const auto* known = sheets_.find(beyond);
+  if (known && known->is_visited(pair.piece)) return;
+  if (leads_across(pair, side)) visit(sheets_[beyond], pair.piece);
 }
 
-bool LocalExploration::crosses(const Pair& pair, int side) {
+bool LocalExploration::leads_across(const Pair& pair, int side) {
   const auto& piece = pieces_[pair.piece];
-  if (meets(side, {piece.all()}, none, none)) return true;
+  const Point &a = mesh_.position(mesh_.from(side)), &b = mesh_.position(mesh_.to(side));
+  if (meets_interior(a, b, {piece.shadows.data(), piece.shadows.size()})) return true;
   // A side of the piece on this edge: the face beyond lies over the piece if the edge is a crease.
   const int beyond = across(side);
-  for (const int carrier : piece.all()) {
-    if (carrier != pair.face && carrier != beyond) continue;
-    if (meets(side, {piece.all()}, carrier, none) && is_inverted(pair.face) != is_inverted(beyond))
+  for (std::size_t i = 0; i < piece.shadows.size(); ++i) {
+    if (piece.faces[i] != pair.sheet->face && piece.faces[i] != beyond) continue;
+    const auto others = piece.is_grown() ? std::span(&piece.shadows[1 - i], 1) : std::span<const Shadow>();
+    if (meets_interior(a, b, others) && pair.sheet->is_inverted() != sheets_[beyond].is_inverted())
       return true;
   }
   return false;
 }
 
 void LocalExploration::change_piece(const Pair& pair) {
-  if (settled_.contains(pair.face)) return;
-  std::vector<int> near;
-  const Box cell =
-      common(box_of(pair.face), pieces_[pair.piece].box);  // where both ways of being connected meet
-  for (auto it = piece_index_.qbegin(bgi::intersects(cell)); it != piece_index_.qend(); ++it) {
-    near.push_back(it->second);
+  auto& sheet = *pair.sheet;
+  if (sheet.is_within_piece) return;  // all visited
+  const auto& piece = pieces_[pair.piece];
+  for (const auto& [side, other] : piece.neighbors) {
+    const int place = sheet.place_of(other);
+    if (place != none && !sheet.visited[place] && are_beside(sheet, piece, side)) mark(sheet, place);
   }
-  std::ranges::sort(near);  // the walk does not depend on the index
-  for (const int other : near) {
-    if (!is_visited(pair.face, other) && are_connected(pair.face, pair.piece, other)) visit(pair.face, other);
+  auto over = sheet.over.begin();
+  for (const int other : piece.overlapping) {  // both ascend
+    over = std::lower_bound(over, sheet.over.end(), other);
+    if (over == sheet.over.end()) break;
+    const int place = static_cast<int>(over - sheet.over.begin());
+    if (*over == other && !sheet.visited[place] && have_common_point(sheet, piece, pieces_[other]))
+      mark(sheet, place);
   }
-  // Within one piece, whatever lies over the face is connected there: nothing more to find, whichever pair
-  // comes next.
-  const auto within = pieces_[pair.piece].all();
-  const bool settled =
-      std::ranges::all_of(within, [&](int f) { return is_within(shadow(pair.face), shadow(f)); });
-  if (settled) settled_.insert(pair.face);
 }
 
-// Both over the face: with a common interior point, or beside each other along an edge that runs through the
-// face.
-bool LocalExploration::are_connected(int face, int piece, int other) {
-  const auto d = pieces_[piece].all(), e = pieces_[other].all();
-  boost::container::static_vector<int, 5> faces{face};
-  Shadows shadows{shadow(face)};
-  for (const auto& some : {d, e}) {
-    for (const int f : some) {
-      if (std::ranges::find(faces, f) != faces.end()) continue;
-      faces.push_back(f);
-      shadows.push_back(shadow(f));
-    }
-  }
-  if (interiors_overlap({shadows.data(), shadows.size()})) return true;
-  const std::array<int, 1> over{face};
-  for (const int a : d) {
-    for (const int side : mesh_.sides(a)) {
-      const int b = across(side);
-      if (b == none || std::ranges::find(e, b) == e.end() || is_inverted(a) != is_inverted(b)) continue;
-      if (meets(side, {d, e, over}, a, b)) return true;
-    }
-  }
-  return false;
-}
-
-bool LocalExploration::lies_over(int face, int piece) {
-  Shadows shadows{shadow(face)};
-  for (const int f : pieces_[piece].all()) {
-    if (f != face) shadows.push_back(shadow(f));
-  }
-  return interiors_overlap({shadows.data(), shadows.size()});
-}
-
-// The edge's shadow meets the common interior of the faces, two of them left out.
-bool LocalExploration::meets(int side, std::initializer_list<std::span<const int>> faces, int except,
-                             int except_too) {
-  Shadows shadows;
-  for (const auto& some : faces) {
-    for (const int f : some) {
-      if (f != except && f != except_too) shadows.push_back(shadow(f));
-    }
+// An edge that the piece and its neighbour share runs through the face where both are.
+bool LocalExploration::are_beside(const Sheet& sheet, const ConvexPiece& piece, int side) const {
+  boost::container::static_vector<Shadow, 2> shadows{sheet.shadow};
+  for (std::size_t i = 0; i < piece.shadows.size(); ++i) {
+    const int face = piece.faces[i];
+    if (face != mesh_.face_of(side) && face != sheet.face) shadows.push_back(piece.shadows[i]);
   }
   return meets_interior(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side)),
                         {shadows.data(), shadows.size()});
+}
+
+bool LocalExploration::is_connected(const Sheet& sheet, int piece) const {
+  const auto& d = pieces_[piece];
+  return std::any_of(
+             d.neighbors.begin(), d.neighbors.end(),
+             [&](const auto& n) { return sheet.is_visited(n.piece) && are_beside(sheet, d, n.side); }) ||
+         std::any_of(d.overlapping.begin(), d.overlapping.end(), [&](int other) {
+           return sheet.is_visited(other) && have_common_point(sheet, d, pieces_[other]);
+         });
 }
 
 // --- extending ---
@@ -185,116 +159,49 @@ bool LocalExploration::meets(int side, std::initializer_list<std::span<const int
 void LocalExploration::extend(int face) {
   ++components_;
   std::vector<int> component{face};
-  extended_.insert(face);
+  const int first = pieces_.add(face, sheets_[face].shadow);
   for (std::size_t i = 0; i < component.size(); ++i) {
     for (const int side : mesh_.sides(component[i])) {
       const int beyond = across(side);
-      if (beyond == none || extended_.contains(beyond) || !is_inverted(beyond)) continue;
-      extended_.insert(beyond);
+      if (beyond == none || !sheets_[beyond].is_inverted() || pieces_.find({beyond, none}) != none) continue;
+      pieces_.add(beyond, sheets_[beyond].shadow);
       component.push_back(beyond);
     }
   }
   inverted_ += static_cast<int>(component.size());
-  for (const int f : component) {
-    const int piece = add_piece({f, none}, 1);
-    if (!is_visited(f, piece)) visit(f, piece);
-    connect_piece(piece);
-  }
-}
-
-int LocalExploration::add_piece(std::array<int, 2> faces, int n_faces) {
-  const Box box = n_faces == 1 ? box_of(faces[0]) : common(box_of(faces[0]), box_of(faces[1]));
-  const int piece = static_cast<int>(pieces_.size());
-  pieces_.push_back({faces, n_faces, box});
-  piece_index_.insert({box, piece});
-  return piece;
+  for (int piece = first; piece < pieces_.size(); ++piece) connect_new_piece(piece);
+  for (int piece = first; piece < pieces_.size(); ++piece) visit(sheets_[pieces_[piece].faces[0]], piece);
 }
 
 // Faces of R* whose pairs have been left already have to learn of a new piece.
-void LocalExploration::connect_piece(int piece) {
-  std::vector<int> near;
-  const Box& box = pieces_[piece].box;
-  for (auto it = face_index_.qbegin(bgi::intersects(box)); it != face_index_.qend(); ++it)
-    near.push_back(it->second);
-  std::ranges::sort(near);
-  for (const int face : near) {
-    if (is_visited(face, piece)) continue;
-    const auto& over = over_[face];
-    const bool connected =
-        settled_.contains(face)
-            ? lies_over(face, piece)
-            : std::ranges::any_of(over, [&](int other) { return are_connected(face, other, piece); });
-    if (connected) visit(face, piece);
+void LocalExploration::connect_new_piece(int piece) {
+  for (auto* sheet : sheets_.add_piece(pieces_, piece)) {
+    if (!sheet->is_in_region) continue;
+    if (sheet->is_within_piece) {
+      mark_all(*sheet);
+    } else if (is_connected(*sheet, piece)) {
+      mark(*sheet, sheet->place_of(piece));
+    }
   }
 }
 
 // --- gamma, and growing ---
 
 // How often R covers a point of the first piece, with signs: lifts in R only, not all faces of R*.
-int LocalExploration::cover() {
-  std::vector<int> lifts;
-  for (const auto& [face, pieces] : over_) {
-    if (std::ranges::find(pieces, 0) != pieces.end()) lifts.push_back(face);
+int LocalExploration::cover() const {
+  std::vector<Shadow> lifts;
+  for (const auto& sheet : sheets_.all()) {
+    if (sheet.is_visited(0)) lifts.push_back(sheet.shadow);
   }
-  std::ranges::sort(lifts);
-  std::vector<Shadow> sheets;
-  for (const int face : lifts) sheets.push_back(shadow(face));
-  return signed_cover(shadow(pieces_[0].faces[0]), sheets);
+  return signed_cover(pieces_[0].shadows[0], lifts);
 }
 
-// Adds the extended shadow G(J). False if there is nothing to add.
 bool LocalExploration::grow() {
-  const auto before = pieces_.size();
-  std::deque<std::array<int, 2>> pending;
-  start_growing(pending);
-  while (!pending.empty()) {
-    const auto pair = pending.front();
-    pending.pop_front();
-    grow_pair(pair, pending);
-  }
-  const auto after = pieces_.size();
-  for (auto piece = before; piece < after; ++piece) connect_piece(static_cast<int>(piece));
-  grown_ += static_cast<int>(after - before);
-  return after > before;
-}
-
-// Two upright lifts over the same piece. The paper starts at points of the border of X; the pairs over the
-// inside of X lead there while both sheets stay upright, and add nothing to X before.
-bool LocalExploration::start_growing(std::deque<std::array<int, 2>>& pending) {
-  std::vector<std::vector<int>> sheets(pieces_.size());
-  for (const int face : faces()) {
-    if (is_inverted(face)) continue;
-    for (const int piece : over_[face]) sheets[piece].push_back(face);
-  }
-  for (std::size_t piece = 0; piece < sheets.size(); ++piece) {
-    for (const int t : sheets[piece]) {
-      for (const int u : sheets[piece]) {
-        if (u <= t || grown_pairs_.contains({t, u})) continue;
-        std::vector<Shadow> shadows{shadow(t), shadow(u)};
-        for (const int f : pieces_[piece].all()) shadows.push_back(shadow(f));
-        if (!interiors_overlap(shadows)) continue;
-        grown_pairs_.insert({t, u});
-        pending.push_back({t, u});
-      }
-    }
-  }
-  return !pending.empty();
-}
-
-void LocalExploration::grow_pair(std::array<int, 2> pair, std::deque<std::array<int, 2>>& pending) {
-  add_piece(pair, 2);
-  for (const int moving : {0, 1}) {
-    const int stays = pair[1 - moving];
-    const std::array<int, 1> under{stays};
-    for (const int side : mesh_.sides(pair[moving])) {
-      const int beyond = across(side);
-      if (beyond == none || beyond == stays || !meets(side, {under}, none, none)) continue;
-      const std::array<int, 2> next{std::min(beyond, stays), std::max(beyond, stays)};
-      if (grown_pairs_.contains(next) || is_inverted(beyond)) continue;
-      grown_pairs_.insert(next);
-      pending.push_back(next);
-    }
-  }
+  const int before = pieces_.size();
+  grow_shadow(mesh_, sheets_, pieces_);
+  for (int piece = before; piece < pieces_.size(); ++piece) connect_new_piece(piece);
+  grown_ += pieces_.size() - before;
+  return pieces_.size() > before;
 }
 
 }  // namespace kinemesh

@@ -1,13 +1,12 @@
 // Spatial index over the shadows of the tangled faces.
 #pragma once
 
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <span>
 #include <vector>
 
 #include "core/mesh.h"
+#include "untangle/box.h"
 
 namespace kinemesh {
 
@@ -34,13 +33,7 @@ class ShadowIndex {
   }
 
  private:
-  using Corner = boost::geometry::model::d2::point_xy<double>;
-  using Box = boost::geometry::model::box<Corner>;
   using Entry = std::pair<Box, int>;
-
-  static Box box_of(const Point& a, const Point& b) {
-    return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
-  }
 
   boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>> tree_;
 };

@@ -15,8 +15,8 @@ namespace kinemesh::test {
 namespace {
 
 struct Answer {
-  std::vector<int> faces;  // user's
-  int components, inverted, gamma_first_stable;
+  std::vector<int> faces{};  // user's
+  int components = 0, inverted = 0, gamma_first_stable = 0;
   bool operator==(const Answer&) const = default;
 };
 
@@ -28,7 +28,10 @@ std::map<int, Answer> answers(const MeshData& tangle) {
     const auto [a, b, c] = mesh.corners(face);
     if (orientation(a, b, c) != Orientation::Clockwise) continue;
     LocalExploration exploration(mesh);
-    EXPECT_TRUE(exploration.run(face));
+    if (!exploration.run(face)) {
+      all[mesh.user_face(face)] = {};  // met a flat face
+      continue;
+    }
     Answer answer{{}, exploration.components(), exploration.inverted(), exploration.gamma_first_stable()};
     for (const int f : exploration.faces()) answer.faces.push_back(mesh.user_face(f));
     std::ranges::sort(answer.faces);
