@@ -22,10 +22,30 @@ struct SubSegment {
   int face;      // of the mesh
 };
 
-// Of a segment, by parameter.
+// A place on a segment: an end of it (then edge is none), or where a mesh edge crosses it.
+struct Place {
+  Number parameter;
+  int edge;
+};
+
+// The same edge cuts at the same place; only other ties need exact arithmetic.
+bool is_before(const Place& p, const Place& q) {
+  return (p.edge != q.edge || p.edge == none) && p.parameter < q.parameter;
+}
+
+bool is_same(const Place& p, const Place& q) {
+  return (p.edge == q.edge && p.edge != none) || p.parameter == q.parameter;
+}
+
 struct Interval {
-  Number low, high;
+  Place low, high;
   int face;
+};
+
+// A crease edge, X to its left.
+struct Segment {
+  int from, to;  // vertices of the mesh
+  int edge;
 };
 
 struct NotGeneral {};  // thrown where positions are too degenerate for the construction
@@ -113,7 +133,7 @@ class Construction {
       if (other != piece) add_interval(a, b, other, covered);
     });
     const auto low_first = [](const Interval& i, const Interval& j) {
-      return std::tie(i.low, i.face) < std::tie(j.low, j.face);
+      return is_before(i.low, j.low) || (i.face < j.face && !is_before(j.low, i.low));
     };
     std::sort(covered.begin(), covered.end(), low_first);
     std::vector<Interval> sheets;
@@ -121,12 +141,14 @@ class Construction {
       if (!is_piece(face)) add_interval(a, b, face, sheets);
     }
     std::sort(sheets.begin(), sheets.end(), low_first);
-    Number free_from = 0;
+    const Segment crease{from, to, Mesh::edge_of(side)};
+    const Place end{1, none};
+    Place free_from{0, none};
     for (const auto& cover : covered) {
-      if (free_from < cover.low) add_sub_segments(from, to, {free_from, cover.low, none}, sheets);
-      if (free_from < cover.high) free_from = cover.high;
+      if (is_before(free_from, cover.low)) add_sub_segments(crease, {free_from, cover.low, none}, sheets);
+      if (is_before(free_from, cover.high)) free_from = cover.high;
     }
-    if (free_from < 1) add_sub_segments(from, to, {free_from, 1, none}, sheets);
+    if (is_before(free_from, end)) add_sub_segments(crease, {free_from, end, none}, sheets);
   }
 
   // The part of a -> b inside the face's shadow, if any.
@@ -134,14 +156,17 @@ class Construction {
     const auto corners = mesh_.corners(face);
     if (!meets_interior(a, b, std::span(&corners, 1))) return;
     const bool upright = orientation(corners[0], corners[1], corners[2]) == Orientation::CounterClockwise;
-    Interval interval{0, 1, face};
+    Interval interval{{0, none}, {1, none}, face};
+    const auto sides = mesh_.sides(face);
     for (int k = 0; k < 3; ++k) {
       const Number u = distance(corners[k], corners[(k + 1) % 3], a, upright);
       const Number w = distance(corners[k], corners[(k + 1) % 3], b, upright);
-      if (w < 0) interval.high = std::min(interval.high, Number(u / (u - w)));
-      if (u < 0) interval.low = std::max(interval.low, Number(u / (u - w)));
+      if (u >= 0 && w >= 0) continue;
+      const Place cut{u / (u - w), Mesh::edge_of(sides[k])};
+      if (w < 0 && is_before(cut, interval.high)) interval.high = cut;
+      if (u < 0 && is_before(interval.low, cut)) interval.low = cut;
     }
-    if (interval.low < interval.high) intervals.push_back(std::move(interval));
+    if (is_before(interval.low, interval.high)) intervals.push_back(std::move(interval));
   }
 
   // Of p from the line p0 p1, up to a factor; positive inside.
@@ -152,25 +177,27 @@ class Construction {
   }
 
   // The sheets over the part tile it exactly once (Lemma 3.1).
-  void add_sub_segments(int from, int to, const Interval& part, const std::vector<Interval>& sheets) {
-    Number reached = part.low;
+  void add_sub_segments(const Segment& crease, const Interval& part, const std::vector<Interval>& sheets) {
+    Place reached = part.low;
     for (const auto& sheet : sheets) {
-      const Number low = std::max(sheet.low, part.low), high = std::min(sheet.high, part.high);
-      if (!(low < high)) continue;
-      if (low != reached) throw NotGeneral();
-      const SubSegment sub{vertex_on(from, to, low), vertex_on(from, to, high), sheet.face};
+      const Place& low = is_before(sheet.low, part.low) ? part.low : sheet.low;
+      const Place& high = is_before(part.high, sheet.high) ? part.high : sheet.high;
+      if (!is_before(low, high)) continue;
+      if (!is_same(low, reached)) throw NotGeneral();
       subs_of_[sheet.face].push_back(static_cast<int>(subs_.size()));
-      subs_.push_back(sub);
+      subs_.push_back({vertex_on(crease, low), vertex_on(crease, high), sheet.face});
       reached = high;
     }
-    if (reached != part.high) throw NotGeneral();
+    if (!is_same(reached, part.high)) throw NotGeneral();
   }
 
-  int vertex_on(int from, int to, const Number& t) {
-    const int a = local(from), b = local(to);
-    if (t == 0) return a;
-    if (t == 1) return b;
-    return vertex_at(surface_.points[a] + t * (surface_.points[b] - surface_.points[a]));
+  int vertex_on(const Segment& crease, const Place& place) {
+    const int a = local(crease.from), b = local(crease.to);
+    if (place.edge == none) return place.parameter == 0 ? a : b;
+    const auto [it, fresh] = crossings_.try_emplace(std::minmax(crease.edge, place.edge), none);
+    const auto& p = surface_.points;
+    if (fresh) it->second = vertex_at(p[a] + place.parameter * (p[b] - p[a]));
+    return it->second;
   }
 
   // --- 4: outside X, face by face ---
@@ -444,11 +471,12 @@ class Construction {
   const Mesh& mesh_;
   const FaceSets& sets_;
   int set_;
-  std::vector<int> vertices_;             // of the mesh, ascending: the surface's first
-  std::map<int, std::vector<int>> over_;  // by inverted face of J: the faces of R* over it
-  std::vector<int> pieces_;               // the inverted faces of J
-  std::map<ExactPoint, int> at_;          // vertices of J and extra ones by place
-  std::vector<bool> in_region_;           // by vertex of the mesh: in R
+  std::vector<int> vertices_;                     // of the mesh, ascending: the surface's first
+  std::map<int, std::vector<int>> over_;          // by inverted face of J: the faces of R* over it
+  std::vector<int> pieces_;                       // the inverted faces of J
+  std::map<ExactPoint, int> at_;                  // vertices of J and extra ones by place
+  std::map<std::pair<int, int>, int> crossings_;  // extra vertices by the two mesh edges, ascending
+  std::vector<bool> in_region_;                   // by vertex of the mesh: in R
   std::vector<SubSegment> subs_;
   std::map<int, std::vector<int>> subs_of_;  // by face
   std::vector<int> inner_constraints_;       // of the edges behind the sub-segments, inside X
