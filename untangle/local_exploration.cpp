@@ -94,6 +94,10 @@ void LocalExploration::walk() {
 void LocalExploration::cross(const Pair& pair, int side) {
   const int beyond = across(side);
   if (beyond == none) return;
+  const auto& piece = pieces_[pair.piece];
+  for (const auto& n : piece.neighbors) {
+    if (n.side == side && are_beside(*pair.sheet, piece, side)) return visit(sheets_[beyond], n.piece);
+  }
   const auto* known = sheets_.find(beyond);
   if (known && known->is_visited(pair.piece)) return;
   if (leads_across(pair, side)) visit(sheets_[beyond], pair.piece);
@@ -132,12 +136,14 @@ void LocalExploration::change_piece(const Pair& pair) {
   }
 }
 
-// An edge that the piece and its neighbour share runs through the face where both are.
+// An edge that the piece and its neighbour share runs through the face where both are, or along its side.
 bool LocalExploration::are_beside(const Sheet& sheet, const ConvexPiece& piece, int side) const {
-  boost::container::static_vector<Shadow, 2> shadows{sheet.shadow};
+  const int carrier = mesh_.face_of(side);
+  boost::container::static_vector<Shadow, 2> shadows;
+  if (sheet.face != carrier) shadows.push_back(sheet.shadow);
   for (std::size_t i = 0; i < piece.shadows.size(); ++i) {
     const int face = piece.faces[i];
-    if (face != mesh_.face_of(side) && face != sheet.face) shadows.push_back(piece.shadows[i]);
+    if (face != carrier && face != sheet.face) shadows.push_back(piece.shadows[i]);
   }
   return meets_interior(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side)),
                         {shadows.data(), shadows.size()});

@@ -16,6 +16,7 @@ namespace kinemesh {
 //   start    (T, f(T)) for each face T of the seed's component;
 //   (T, D) -> (U, D)   across their common edge e if f(e) meets the interior of D, or if e is a crease edge
 //                      that carries a side of D;
+//   (T, D) -> (U, E)   across their common edge e if D has a side on e in T, E one in U, and these meet;
 //   (T, D) -> (T, E)   if T, D and E have a common interior point, or if D and E have sides on the same edge
 //                      whose common part runs through the interior of f(T);
 //   extend   when T is inverted its component joins J;
