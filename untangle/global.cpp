@@ -60,14 +60,12 @@ void GlobalUntangling::describe(const Mesh& mesh, const Tangles& tangles, Repair
   const auto components = inverted_components(mesh, tangles.inverted);
   record.components = components.count;
   for (int region = 0; region < repair_.regions().count(); ++region) {
-    const auto& faces = repair_.regions().faces(region);
-    if (faces.empty()) continue;  // absorbed
+    if (repair_.regions().faces(region).empty()) continue;  // absorbed
     const auto& patch = repair_.patch(region);
-    auto line = describe_region(mesh, faces, tangles, components);
-    line.border_edges = patch.border_edges;
+    auto line = describe_region(mesh, repair_.regions(), region, tangles, components);
+    line.kept = patch.kept;
     line.retries = patch.retries;
-    line.centre = patch.centre;
-    record.replaced += static_cast<int>(faces.size());
+    record.replaced += static_cast<int>(patch.patch.faces.size());
     record.regions.push_back(std::move(line));
   }
   std::sort(record.regions.begin(), record.regions.end(), seeded_before);

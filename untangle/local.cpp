@@ -9,7 +9,6 @@
 #include "untangle/detect.h"
 #include "untangle/doubled_edges.h"
 #include "untangle/global_walk.h"
-#include "untangle/local_exploration.h"
 #include "untangle/overlapping_mesher.h"
 #include "untangle/records.h"
 
@@ -104,7 +103,7 @@ RepairOutcome LocalUntangling::repair_seeds(Mesh& mesh, std::span<const int> see
     record.inverted += region.record.inverted;
     record.degenerate += region.record.degenerate;
     record.components += region.record.components;
-    record.replaced += static_cast<int>(region.record.faces.size());
+    record.replaced += static_cast<int>(region.patch.faces.size());
     record.doubled_edges += region.doubled_edges;
     record.regions.push_back(std::move(region.record));
   }
@@ -139,40 +138,53 @@ std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mes
   if (!tangles.flat.empty()) return std::nullopt;
 
   Region region;
-  region.record =
-      describe_region(mesh, sets_.faces(set), tangles, inverted_components(mesh, tangles.inverted));
+  region.record = describe_region(mesh, sets_, set, tangles, inverted_components(mesh, tangles.inverted));
   region.record.seed = mesh.user_face(seed);
   region.record.explored = exploration.explored();
   region.record.gamma_first_stable = exploration.gamma_first_stable();
   region.record.gamma = exploration.gamma();
   region.record.rounds = exploration.rounds();
   region.record.grown = exploration.grown();
-  switch (mesher_.run(mesh, sets_, set)) {
-    case RegionMesher::Result::Done:
-      finish_region(mesh, options, std::move(mesher_.new_faces()), region);
-      break;
-    case RegionMesher::Result::NoMesh:
-      region.defect = mesher_.defect();
-      break;
-    case RegionMesher::Result::NotSimple: {
-      auto faces = mesh_overlapping(mesh, sets_, set, exploration.cells());
-      if (!faces) return std::nullopt;
-      region.record.self_overlap = true;
-      finish_region(mesh, options, std::move(*faces), region);
-    }
-  }
+  const bool is_general = remesh(mesh, exploration, options, region);
   times.triangulate_ms += triangulating.milliseconds();
+  if (!is_general) return std::nullopt;
   return region;
 }
 
-void LocalUntangling::finish_region(const Mesh& mesh, const RepairOptions& options, NewFaces faces,
-                                    Region& region) {
-  region.doubled_edges = avoid_doubled_edges(mesh, sets_, 0, faces);
-  auto finished = finish(mesh, sets_, 0, std::move(faces), options.allow_escaped);
+// False where degenerate positions are in the way.
+bool LocalUntangling::remesh(const Mesh& mesh, const LocalExploration& exploration,
+                             const RepairOptions& options, Region& region) {
+  const auto result = mesher_.run(mesh, sets_, 0);
+  if (result == RegionMesher::Result::NoMesh) {
+    region.defect = mesher_.defect();
+  } else if (result == RegionMesher::Result::Done) {
+    auto faces = std::move(mesher_.new_faces());
+    if (!options.retain || !remesh_rest(mesh, options, region))
+      finish_region(mesh, sets_, options, std::move(faces), region);
+  } else {
+    auto faces = mesh_overlapping(mesh, sets_, 0, exploration.cells());
+    if (!faces) return false;
+    region.record.self_overlap = true;
+    finish_region(mesh, sets_, options, std::move(*faces), region);
+  }
+  return true;
+}
+
+// False where not all goes well: then there is more to replace, or a reason that the whole region tells.
+bool LocalUntangling::remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region) {
+  if (!retention_.run(mesh, sets_, 0)) return false;
+  if (mesher_.run(mesh, retention_.rest(), 0) != RegionMesher::Result::Done) return false;
+  finish_region(mesh, retention_.rest(), options, std::move(mesher_.new_faces()), region);
+  if (!region.defect) region.record.kept = retention_.kept();
+  return !region.defect;
+}
+
+void LocalUntangling::finish_region(const Mesh& mesh, const FaceSets& sets, const RepairOptions& options,
+                                    NewFaces faces, Region& region) {
+  region.doubled_edges = avoid_doubled_edges(mesh, sets, 0, faces);
+  auto finished = finish(mesh, sets, 0, std::move(faces), options.allow_escaped);
   region.patch = std::move(finished.patch);
   region.defect = std::move(finished.defect);
-  region.record.border_edges = mesher_.border_edges();
-  region.record.centre = mesher_.centre();
 }
 
 LocalUntangling::Region LocalUntangling::piece_of_global_walk(const Mesh& mesh, int seed,
@@ -189,12 +201,11 @@ LocalUntangling::Region LocalUntangling::piece_of_global_walk(const Mesh& mesh, 
   Region region;
   region.defect = pieces_.remesh(mesh, options, piece);
   if (!region.defect) {
-    const auto& faces = pieces_.regions().faces(piece);
-    region.record = describe_region(mesh, faces, tangles, inverted_components(mesh, tangles.inverted));
+    region.record =
+        describe_region(mesh, pieces_.regions(), piece, tangles, inverted_components(mesh, tangles.inverted));
     region.patch = pieces_.patch(piece).patch;
-    region.record.border_edges = pieces_.patch(piece).border_edges;
+    region.record.kept = pieces_.patch(piece).kept;
     region.record.retries = pieces_.patch(piece).retries;
-    region.record.centre = pieces_.patch(piece).centre;
   }
   times.triangulate_ms += triangulating.milliseconds();
   return region;

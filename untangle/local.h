@@ -4,8 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "untangle/local_exploration.h"
 #include "untangle/region_mesher.h"
 #include "untangle/region_repair.h"
+#include "untangle/retention.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh {
@@ -39,10 +41,15 @@ class LocalUntangling : public Strategy {
   std::optional<Region> minimum_region(const Mesh& mesh, int seed, const RepairOptions& options,
                                        RepairRecord& times);
   Region piece_of_global_walk(const Mesh& mesh, int seed, const RepairOptions& options, RepairRecord& times);
-  void finish_region(const Mesh& mesh, const RepairOptions& options, NewFaces faces, Region& region);
+  bool remesh(const Mesh& mesh, const LocalExploration& exploration, const RepairOptions& options,
+              Region& region);
+  bool remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region);
+  void finish_region(const Mesh& mesh, const FaceSets& sets, const RepairOptions& options, NewFaces faces,
+                     Region& region);
 
   FaceSets sets_;  // the region at hand
   RegionMesher mesher_;
+  Retention retention_;
   RegionRepair pieces_;
 };
 

@@ -1,6 +1,7 @@
 #include "untangle/records.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <numeric>
 
 namespace kinemesh {
@@ -25,6 +26,28 @@ int count_crease_edges(const Mesh& mesh, int inverted_face, const Tangles& tangl
   return count;
 }
 
+int count_border_edges(const Mesh& mesh, const FaceSets& sets, int set) {
+  int count = 0;
+  for (const int face : sets.faces(set)) {
+    for (const int side : mesh.sides(face)) {
+      const int across = mesh.face_of(Mesh::opposite(side));
+      count += across == none || sets.set_of(across) != set;
+    }
+  }
+  return count;
+}
+
+Point centre_of(const Mesh& mesh, const std::vector<int>& faces) {
+  Point low = mesh.corners(faces.front())[0], high = low;
+  for (const int face : faces) {
+    for (const auto& p : mesh.corners(face)) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  }
+  return low + 0.5 * (high - low);
+}
+
 template <class Member>
 int total(const std::vector<RegionRecord>& regions, const Member& member) {
   return std::transform_reduce(regions.begin(), regions.end(), 0, std::plus<>(), member);
@@ -32,10 +55,13 @@ int total(const std::vector<RegionRecord>& regions, const Member& member) {
 
 }  // namespace
 
-RegionRecord describe_region(const Mesh& mesh, const std::vector<int>& faces, const Tangles& tangles,
+RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set, const Tangles& tangles,
                              const Components& components) {
+  const auto& faces = sets.faces(set);
   RegionRecord record;
   record.faces = faces;
+  record.border_edges = count_border_edges(mesh, sets, set);
+  record.centre = centre_of(mesh, faces);
   record.explored = static_cast<int>(faces.size());
   std::vector<int> numbers;
   for (const int face : faces) {

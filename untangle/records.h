@@ -3,13 +3,15 @@
 
 #include "core/mesh.h"
 #include "untangle/detect.h"
+#include "untangle/face_sets.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh {
 
 // Fills what follows from the faces alone (faces, user_faces, seed, inverted, degenerate, components,
-// crease_edges, explored). To be called before anything is spliced. Pre: faces ascending.
-RegionRecord describe_region(const Mesh& mesh, const std::vector<int>& faces, const Tangles& tangles,
+// crease_edges, explored, border_edges, centre). To be called before anything is spliced. Pre: the set's
+// faces ascend.
+RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set, const Tangles& tangles,
                              const Components& components);
 
 // Vertices on no constrained edge that lie in another label than their home. None unless that is allowed.

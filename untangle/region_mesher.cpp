@@ -32,15 +32,6 @@ RegionMesher::Result RegionMesher::run(const Mesh& mesh, const FaceSets& sets, i
   return find_lost_vertex() || find_taken_edge() ? Result::NoMesh : Result::NotSimple;
 }
 
-Point RegionMesher::centre() const {
-  Point low = points_.front(), high = low;
-  for (const auto& p : points_) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return low + 0.5 * (high - low);
-}
-
 // --- what goes into the triangulation ---
 
 void RegionMesher::collect(const FaceSets& sets, int set) {

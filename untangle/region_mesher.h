@@ -31,8 +31,6 @@ class RegionMesher {
   // Of the last region.
   NewFaces& new_faces() { return new_faces_; }
   const Defect& defect() const { return defect_; }
-  int border_edges() const { return static_cast<int>(border_halfedges_.size()); }
-  Point centre() const;  // of the box around its vertices
 
   double triangulator_ms() const { return triangulator_.milliseconds(); }  // over all regions
 
@@ -46,6 +44,7 @@ class RegionMesher {
   bool find_taken_edge();
   void convert();
 
+  int border_edges() const { return static_cast<int>(border_halfedges_.size()); }
   bool is_constrained(int edge) const;
   int user(int local) const { return mesh_->user_vertex(vertices_[local]); }
   Edge user_edge(int edge) const { return {user(edges_[edge][0]), user(edges_[edge][1])}; }

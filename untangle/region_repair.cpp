@@ -14,6 +14,7 @@ constexpr int max_rings = 4;
 
 std::optional<Defect> RegionRepair::remesh(const Mesh& mesh, const RepairOptions& options, int region) {
   if (regions_.faces(region).empty()) return std::nullopt;  // absorbed
+  if (options.retain && remesh_rest(mesh, options, region)) return std::nullopt;
   auto& work = patches_[region];
   auto result = mesher_.run(mesh, regions_, region);
   while (result == RegionMesher::Result::NotSimple) {
@@ -27,9 +28,18 @@ std::optional<Defect> RegionRepair::remesh(const Mesh& mesh, const RepairOptions
   auto finished = finish(mesh, regions_, region, std::move(mesher_.new_faces()), options.allow_escaped);
   if (finished.defect) return finished.defect;
   work.patch = std::move(finished.patch);
-  work.border_edges = mesher_.border_edges();
-  work.centre = mesher_.centre();
   return std::nullopt;
+}
+
+// False where not all goes well: then there is more to replace, or a reason that the whole region tells.
+bool RegionRepair::remesh_rest(const Mesh& mesh, const RepairOptions& options, int region) {
+  if (!retention_.run(mesh, regions_, region)) return false;
+  if (mesher_.run(mesh, retention_.rest(), 0) != RegionMesher::Result::Done) return false;
+  auto finished = finish(mesh, retention_.rest(), 0, std::move(mesher_.new_faces()), options.allow_escaped);
+  if (finished.defect) return false;
+  patches_[region].patch = std::move(finished.patch);
+  patches_[region].kept = retention_.kept();
+  return true;
 }
 
 void RegionRepair::enlarge(const Mesh& mesh, int region) {

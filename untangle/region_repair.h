@@ -9,16 +9,16 @@
 #include "core/mesh.h"
 #include "untangle/face_sets.h"
 #include "untangle/region_mesher.h"
+#include "untangle/retention.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh {
 
 // A region on its way to the splice.
 struct RegionPatch {
-  Patch patch;  // empty where the region was absorbed by another
-  int border_edges = 0;
-  int retries = 0;  // enlargements
-  Point centre{0.0, 0.0};
+  Patch patch;            // empty where the region was absorbed by another
+  std::vector<int> kept;  // faces of the region that stay
+  int retries = 0;        // enlargements
 };
 
 // The regions of a global walk, re-meshed one by one. Changes no mesh.
@@ -38,11 +38,13 @@ class RegionRepair {
   const RegionPatch& patch(int region) const { return patches_[region]; }
 
  private:
+  bool remesh_rest(const Mesh& mesh, const RepairOptions& options, int region);
   void enlarge(const Mesh& mesh, int region);
   void take(int face, int region);
 
   FaceSets regions_;
   RegionMesher mesher_;
+  Retention retention_;
   std::vector<RegionPatch> patches_;  // per region
 };
 

@@ -39,9 +39,7 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
     return outcome;
   }
 
-  auto line = describe_region(mesh, everything_.faces(all), tangles, components);
-  line.border_edges = mesher_.border_edges();
-  line.centre = mesher_.centre();
+  auto line = describe_region(mesh, everything_, all, tangles, components);
   record.replaced = mesh.n_faces();
   record.regions.push_back(std::move(line));
   mesh.splice(finished.patch);

@@ -20,6 +20,7 @@ struct RegionRecord {
   std::vector<int> faces;  // R*: the mesh's faces (not the user's numbers), ascending, as they were when it
                            // was found; their handles now hold the new faces
   std::vector<int> user_faces;  // the domain's faces among them, user's numbers, ascending
+  std::vector<int> kept;        // those of `faces` that were not replaced, ascending; none unless retained
   int inverted = 0;             // inverted faces in it
   int degenerate = 0;           // flat faces in it
   int components = 0;           // inverted components
@@ -65,8 +66,8 @@ struct RepairOutcome {
 };
 
 struct RepairOptions {
-  bool allow_escaped =
-      false;  // count vertices on the wrong side of their border or interface instead of failing
+  bool allow_escaped = false;  // count vertices on the wrong side of border or interface instead of failing
+  bool retain = false;         // keep upright faces of a region that need not be replaced
 };
 
 class Strategy {
