@@ -120,7 +120,7 @@ LocalUntangling::Region LocalUntangling::untangle(const Mesh& mesh, int seed, co
   return piece_of_global_walk(mesh, seed, options, times);
 }
 
-// Nothing where degenerate positions are in the way.
+// Nothing where degenerate positions are in the way, or labels that other tangles keep from fitting.
 std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mesh& mesh, int seed,
                                                                        const RepairOptions& options,
                                                                        RepairRecord& times) {
@@ -147,7 +147,7 @@ std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mes
   region.record.grown = exploration.grown();
   const bool is_general = remesh(mesh, exploration, options, region);
   times.triangulate_ms += triangulating.milliseconds();
-  if (!is_general) return std::nullopt;
+  if (!is_general || region.defect) return std::nullopt;
   return region;
 }
 

@@ -13,9 +13,9 @@
 namespace kinemesh {
 
 // Each seed's minimum locally removable region is explored and re-meshed with upright faces; whatever is
-// tangled elsewhere stays as it is [Agarwal 2008, Theorem 4.4, Lemma 3.3]. In degenerate positions, and for a
-// flat seed, the piece of the global walk that holds the seed takes the region's place: valid, but not the
-// minimum.
+// tangled elsewhere stays as it is [Agarwal 2008, Theorem 4.4, Lemma 3.3]. The piece of the global walk that
+// holds the seed takes the region's place, valid but not the minimum, in degenerate positions, for a flat
+// seed, and where the labels of a region do not fit together before tangles in its holes are gone.
 class LocalUntangling : public Strategy {
  public:
   std::string_view name() const override { return "local"; }

@@ -446,6 +446,30 @@ class Construction {
     }
   }
 
+  // Each half-edge of the border of R* bounds one new face, from end to end.
+  void check_border(const NewFaces& faces) const {
+    std::vector<int> found, expected;
+    for (int f = 0; f < faces.size(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const int halfedge = ~faces.neighbours[f][k];
+        if (halfedge < 0) continue;
+        const bool fits = faces.triangles[f][k] == mesh_.from(halfedge) &&
+                          faces.triangles[f][(k + 1) % 3] == mesh_.to(halfedge);
+        if (!fits) throw NotGeneral();
+        found.push_back(halfedge);
+      }
+    }
+    for (const int face : sets_.faces(set_)) {
+      for (const int side : mesh_.sides(face)) {
+        const int across = mesh_.face_of(Mesh::opposite(side));
+        if (across == none || sets_.set_of(across) != set_) expected.push_back(side);
+      }
+    }
+    std::sort(found.begin(), found.end());
+    std::sort(expected.begin(), expected.end());
+    if (found != expected) throw NotGeneral();
+  }
+
   NewFaces convert() const {
     std::vector<int> number(surface_.n_faces(), none);
     int n = 0;
@@ -465,6 +489,7 @@ class Construction {
       }
       faces.add(corners, neighbours, constraints);
     }
+    check_border(faces);
     return faces;
   }
 
