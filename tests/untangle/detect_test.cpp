@@ -116,6 +116,13 @@ TEST(Detect, EqualsBruteForceWithAnyNumberOfThreads) {
   }
 }
 
+TEST(Detect, MissesNoFaceOfALargeMesh) {
+  Random random(6);
+  Mesh mesh = build_mesh(random_grid(150, 150, random));
+  for (auto& p : mesh.positions()) p.x = -p.x;
+  EXPECT_EQ(static_cast<int>(detect(mesh).inverted.size()), mesh.n_faces());
+}
+
 TEST(InvertedComponents, JoinAcrossEdgesOnly) {
   Mesh mesh = build_mesh(four_triangles());
   // Faces 0 and 2 touch in vertex 4 only.

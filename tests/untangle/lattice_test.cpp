@@ -26,13 +26,34 @@ void expect_repaired(Mesh mesh, const std::string& about) {
   EXPECT_EQ(contract_broken(before, mesh, outcome), "") << about;
 }
 
-TEST(Lattice, IsRepairedWhereverAMeshExists) {
+void expect_holds(std::string (*property)(std::uint64_t), int seeds) {
   int broken = 0;
-  for (std::uint64_t seed = 1; seed <= 5000 && broken < 5; ++seed) {
-    const auto wrong = check_lattice_tangle(seed);
+  for (int seed = 1; seed <= seeds && broken < 5; ++seed) {
+    const auto wrong = property(seed);
     EXPECT_EQ(wrong, "");
     broken += !wrong.empty();
   }
+}
+
+TEST(Lattice, IsRepairedWhereverAMeshExists) {
+  expect_holds(check_lattice_tangle, 6000);
+}
+
+TEST(Polyomino, IsRepairedWhereverAMeshExists) {
+  expect_holds(check_polyomino_tangle, 6000);
+}
+
+// A valid mesh exists neither always nor never.
+TEST(Polyomino, FailsNowAndThen) {
+  int repaired = 0, failed = 0;
+  for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+    Mesh mesh = polyomino_tangle(seed).mesh;
+    const auto outcome = repair(mesh, true);
+    repaired += outcome && !outcome.record.regions.empty();
+    failed += !outcome;
+  }
+  EXPECT_GT(repaired, 50);
+  EXPECT_GT(failed, 50);
 }
 
 TEST(Lattice, TakesAVertexToEveryHalfCell) {

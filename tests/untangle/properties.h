@@ -10,6 +10,9 @@
 
 namespace kinemesh::test {
 
+// Only the faces of the record's regions, and what lies between them, may change.
+std::string outside_changed(const Mesh& before, const Mesh& after, const RepairRecord& record);
+
 // Between a mesh before its repair and after it: valid; positions, everything outside the regions, the border
 // and the user's numbering untouched; regions disjoint; a second repair finds nothing to do.
 std::string contract_broken(const Mesh& before, const Mesh& after, const RepairOutcome& outcome);
@@ -18,11 +21,17 @@ std::string contract_broken(const Mesh& before, const Mesh& after, const RepairO
 // position.
 std::string regions_wrong(const Mesh& before, const RepairRecord& record);
 
-// Repairs, and checks all of the above; `remesh` must agree that a valid mesh exists.
+// Repairs the mesh where a valid one exists, without retries; elsewhere the failure is the true one and
+// leaves everything as it was. `rigid`: constrained edges have moved without changing shape, so that vertices
+// which coincide or touch them are all that can go wrong.
+std::string check_step(Mesh& mesh, bool rigid);
+
+// Repairs, and checks the contract and the regions; `remesh` must agree that a valid mesh exists.
 std::string check_random_tangle(std::uint64_t seed);
 
-// The same without retries, three steps in a row, wherever no vertices coincide and no constraint is touched;
-// elsewhere the failure is the true one and leaves everything as it was.
+// Three steps in a row. A polyomino's borders and interfaces change their shape, and may turn over without
+// touching anything.
 std::string check_lattice_tangle(std::uint64_t seed);
+std::string check_polyomino_tangle(std::uint64_t seed);
 
 }  // namespace kinemesh::test

@@ -134,7 +134,8 @@ Tangle interface(Random& random) {
     const Point middle = (data.points[a] + data.points[b] + data.points[c]) / 3.0;
     data.labels.push_back(is_left_of_all(ring, middle) ? 7 : 3);
   }
-  Tangle t{"interface", build_mesh(data)};
+  Tangle t{"interface", build_mesh(data, {.frame = random.one_in(2) ? 0.3 : 0.0})};
+  snap_frame(t.mesh);
   const auto spin =
       turn(centre, any_angle(random), {random.between(-0.15, 0.15), random.between(-0.15, 0.15)});
   move_constrained(t.mesh, [&](const Point& p) { return glm::distance(p, centre) < 0.35 ? spin(p) : p; });
@@ -301,6 +302,34 @@ Tangle lattice_tangle(std::uint64_t seed) {
     move_constrained(t.mesh, [&](const Point& p) { return p + shift; });
   }
   return t;
+}
+
+Tangle polyomino_tangle(std::uint64_t seed) {
+  Random random(seed);
+  auto data = random_grid(2 + random.below(5), 2 + random.below(5), random);
+  const int keep = 2 + random.below(8), n_labels = 1 + random.below(3);
+  std::vector<Triangle> kept;
+  for (std::size_t cell = 0; cell < data.triangles.size(); cell += 2) {
+    if (random.one_in(keep) && !(kept.empty() && cell + 2 == data.triangles.size())) continue;
+    const int label = random.below(n_labels);
+    for (const std::size_t face : {cell, cell + 1}) {
+      kept.push_back(data.triangles[face]);
+      data.labels.push_back(label);
+    }
+  }
+  data.triangles = kept;
+  Tangle t{"polyomino", build_mesh(data, {.frame = 1.0})};
+  snap_frame(t.mesh);
+  jump_anywhere(t.mesh, random);
+  return t;
+}
+
+void jump_anywhere(Mesh& mesh, Random& random) {
+  const int rarity = 2 + random.below(12);
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    if (mesh.is_isolated(v) || mesh.user_vertex(v) == none || !random.one_in(rarity)) continue;
+    mesh.positions()[v] += Point(random.below(3) - 1, random.below(3) - 1);
+  }
 }
 
 }  // namespace kinemesh::test

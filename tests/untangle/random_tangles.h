@@ -25,6 +25,12 @@ Tangle random_tangle(std::uint64_t seed);
 // a frame, an interface.
 Tangle lattice_tangle(std::uint64_t seed);
 
+// Cells of a lattice, some of them missing, some with labels, in a frame: holes, islands and bow-ties at
+// random. Any vertex may move by half a cell, on borders and interfaces too, so that often no valid mesh
+// exists.
+Tangle polyomino_tangle(std::uint64_t seed);
+void jump_anywhere(Mesh& mesh, Random& random);
+
 // Moves the interior vertices of a mesh of lattice_tangle once more.
 void jump_on_lattice(Mesh& mesh, Random& random);
 

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   using namespace kinemesh::test;
   const auto seeds = number(argc, argv, 1, 100000), first = number(argc, argv, 2, 1);
   const auto broken = sweep("random tangles", check_random_tangle, first, seeds) +
-                      sweep("lattice tangles", check_lattice_tangle, first, seeds);
+                      sweep("lattice tangles", check_lattice_tangle, first, seeds) +
+                      sweep("polyomino tangles", check_polyomino_tangle, first, seeds);
   return broken == 0 ? 0 : 1;
 }

@@ -15,7 +15,7 @@ namespace {
 // The oracle's answer for one component, with what is counted of it.
 struct Expected {
   LocalRegion region;
-  bool overstepped, self_overlapping;
+  bool overstepped, self_overlapping, self_overlapping_here;
 };
 
 class Comparison {
@@ -44,11 +44,12 @@ class Comparison {
   }
 
   Expected expect(int component) const {
-    Expected out{oracle_.region(component), false, false};
+    Expected out{oracle_.region(component), false, false, false};
     EXPECT_TRUE(oracle_.is_locally_removable(out.region.lifts)) << "component " << component;
     EXPECT_TRUE(oracle_.is_border_bijective(out.region.lifts)) << "component " << component;
     out.overstepped = out.region.growths == 0 && oracle_.sketch(component) != out.region.faces;
     out.self_overlapping = oracle_.overlaps_itself(out.region.faces);
+    out.self_overlapping_here = oracle_.overlaps_itself(out.region.faces, component);
     return out;
   }
 
@@ -81,6 +82,7 @@ class Comparison {
     counts.grown_twice += region.growths > 1;
     counts.overstepped += expected.overstepped;
     counts.self_overlapping += expected.self_overlapping;
+    counts.self_overlapping_here += expected.self_overlapping_here;
     counts.largest = std::max(counts.largest, static_cast<int>(region.faces.size()));
   }
 
@@ -105,6 +107,7 @@ std::ostream& operator<<(std::ostream& out, const Counts& c) {
              << c.grown_twice << " grown more than once\n"
              << c.overstepped << " overstepped by walking whole faces\n"
              << c.self_overlapping << " whose region overlaps itself\n"
+             << c.self_overlapping_here << " whose region overlaps itself over their own shadow\n"
              << c.largest << " faces in the largest region\n";
 }
 

@@ -19,9 +19,10 @@ struct Counts {
   int extended = 0;                            // further components in the region
   int gamma_2 = 0;                             // gamma >= 2 when extending first came to rest: shadows grow
   int grown_twice = 0;
-  int overstepped = 0;       // walking whole faces takes more; not counted where shadows grow
-  int self_overlapping = 0;  // border of R* not simple
-  int largest = 0;           // faces of a region
+  int overstepped = 0;            // walking whole faces takes more; not counted where shadows grow
+  int self_overlapping = 0;       // border of R* not simple
+  int self_overlapping_here = 0;  // over the component's own shadow: gamma counts lifts, not faces
+  int largest = 0;                // faces of a region
 };
 // One "number what" a line.
 std::ostream& operator<<(std::ostream& out, const Counts& counts);

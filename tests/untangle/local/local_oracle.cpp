@@ -290,13 +290,25 @@ std::vector<int> LocalOracle::sketch(int component) const {
   return faces;
 }
 
-bool LocalOracle::overlaps_itself(const std::vector<int>& faces) const {
+// Of the border of some faces around each cell: their signed cover.
+std::vector<int> LocalOracle::windings(const std::vector<int>& faces) const {
   Lifts all(sheets_.n_lifts(), false);
   for (const int face : faces) {
     for (const int lift : sheets_.lifts_of_face(face)) all[lift] = true;
   }
-  // The winding number of the border of some faces is their signed cover.
-  return std::ranges::any_of(gamma(all), [](int winding) { return winding != 0 && winding != 1; });
+  return gamma(all);
+}
+
+bool LocalOracle::overlaps_itself(const std::vector<int>& faces) const {
+  return std::ranges::any_of(windings(faces), [](int winding) { return winding != 0 && winding != 1; });
+}
+
+bool LocalOracle::overlaps_itself(const std::vector<int>& faces, int component) const {
+  const auto winding = windings(faces);
+  for (int cell = 0; cell < sheets_.n_cells(); ++cell) {
+    if (shadow_of_[component][cell] && winding[cell] != 1) return true;
+  }
+  return false;
 }
 
 }  // namespace kinemesh::test

@@ -67,8 +67,11 @@ class LocalOracle {
 
   // The border of R* overlaps itself in the plane.
   bool overlaps_itself(const std::vector<int>& faces) const;
+  // It does so over the component's shadow: there the faces of R* have lifts outside R.
+  bool overlaps_itself(const std::vector<int>& faces, int component) const;
 
  private:
+  std::vector<int> windings(const std::vector<int>& faces) const;
   std::vector<std::pair<int, int>> first_pairs(const Lifts& r, const Cells& x) const;
 
   const Sheets& sheets_;

@@ -32,12 +32,14 @@ TEST(LocalSweep, EqualsBruteForceOnRandomTangles) {
 // Small tangles on which each of these happens.
 TEST(LocalSweep, EqualsBruteForceOnRarePaths) {
   Counts counts;
-  for (const int seed : {301064, 302915, 304552, 301848, 302883, 304098, 304182, 304315, 304794}) {
+  for (const int seed : {301064, 302915, 304552, 301848, 302883, 304098, 304182, 304315, 304794, 310857,
+                         311234, 311726, 312594, 1000702}) {
     compare(random_tangle(seed), "tangle" + std::to_string(seed), counts);
   }
   EXPECT_GE(counts.gamma_2, 3);
   EXPECT_GE(counts.overstepped, 20);
   EXPECT_GE(counts.self_overlapping, 20);
+  EXPECT_GE(counts.self_overlapping_here, 7);
 }
 
 TEST(LocalSweep, EqualsBruteForceOnNearlyDegenerateTangles) {
