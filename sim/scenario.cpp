@@ -43,10 +43,12 @@ void read_file_source(TomlTable& table, const std::string& file, const std::file
     if (table.has(key)) table.fail(key, "belongs to a shape, but 'file' is given");
   if (file.empty()) table.fail("file", "the name of a mesh file expected");
   mesh.file = (folder / file).lexically_normal();
+  mesh.split_quads = table.boolean("split_quads").value_or(mesh.split_quads);
 }
 
 void read_shape_source(TomlTable& table, const std::string& shape, MeshSpec& mesh) {
   require_one_of(table, "shape", shape, names_of(shapes()));
+  if (table.has("split_quads")) table.fail("split_quads", "belongs to a file, but 'shape' is given");
   mesh.shape = shape;
   mesh.vertices = static_cast<int>(table.integer("vertices", 3, most).value_or(mesh.vertices));
   mesh.seed =

@@ -24,6 +24,7 @@ namespace kinemesh {
 // [mesh]: a file, or else a shape.
 struct MeshSpec {
   std::filesystem::path file;  // absolute; empty: a shape
+  bool split_quads = false;    // of a file: cut quadrilaterals in two instead of refusing them
   std::string shape;
   int vertices = 10000;    // of a shape
   std::uint64_t seed = 1;  // of a shape

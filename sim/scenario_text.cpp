@@ -74,6 +74,7 @@ void write(Writer& out, const MeshSpec& mesh) {
   out.header("[mesh]");
   if (!mesh.file.empty()) {
     out.line("file", std::filesystem::absolute(mesh.file).string());
+    out.line("split_quads", mesh.split_quads);
   } else {
     out.line("shape", mesh.shape);
     out.line("vertices", std::int64_t{mesh.vertices});

@@ -23,7 +23,8 @@ MeshData shape_of(const MeshSpec& spec) {
 }
 
 ReadResult data_of(const MeshSpec& spec) {
-  return spec.file.empty() ? ReadResult{shape_of(spec), {}} : read_mesh(spec.file);
+  return spec.file.empty() ? ReadResult{shape_of(spec), {}}
+                           : read_mesh(spec.file, {.split_quads = spec.split_quads});
 }
 
 std::string name_of(const MeshSpec& spec) {
@@ -43,6 +44,9 @@ Mesh mesh_of(const MeshSpec& spec, const MeshData& data) {
     return mesh;
   } catch (const NoEmbedding& error) {
     refuse_invalid(spec, error.defect());
+  } catch (const InputError& error) {
+    if (!error.file().empty()) throw;
+    throw InputError(name_of(spec), 0, error.what());
   }
 }
 

@@ -19,6 +19,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   RunOptions options;
   std::string directory;
+  bool split_quads = false;
   bool quiet = false;
   bool verbose = false;
 
@@ -93,7 +94,8 @@ void print_summary(const RunSummary& summary, const RemeshProbe& probe) {
 }
 
 int run_scenario(const RunArguments& arguments) {
-  const Scenario scenario = load_scenario(arguments.scenario, arguments.overrides);
+  Scenario scenario = load_scenario(arguments.scenario, arguments.overrides);
+  scenario.mesh.split_quads |= arguments.split_quads;
   RunOptions options = arguments.options;
   options.directory = arguments.directory;
   Progress progress(arguments.verbosity());
@@ -123,6 +125,8 @@ void add_run(CLI::App& program, Action& action, const std::vector<std::string>& 
   command.add_option("--set", arguments->overrides, "Change the scenario: key=value, as in motion.0.rate=2")
       ->type_size(1)
       ->allow_extra_args(false);
+  command.add_flag("--split-quads", arguments->split_quads,
+                   "Cut the mesh's quadrilaterals in two instead of refusing them");
   command.add_flag("--dry-run", options.dry_run, "Say what would be done, and write nothing");
   command.add_flag("--force", options.force, "Replace the run that is in the folder");
   CLI::Option* quiet = command.add_flag("-q,--quiet", arguments->quiet, "Say nothing but errors");

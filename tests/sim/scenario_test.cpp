@@ -61,6 +61,7 @@ TEST(Scenario, ReadsWhatIsSaid) {
   const Scenario s = parse_scenario(R"(
 [mesh]
 file = "meshes/../wing.su2"
+split_quads = true
 frame = 0
 [[motion]]
 field = "rotation"
@@ -89,6 +90,7 @@ checkpoint = 0
 )",
                                     "/somewhere/a.toml");
   EXPECT_EQ(s.mesh.file, "/somewhere/wing.su2");
+  EXPECT_TRUE(s.mesh.split_quads);
   EXPECT_EQ(s.mesh.frame, 0.0);
   ASSERT_EQ(s.motions.size(), 2u);
   EXPECT_EQ(s.motions[0].on, "marker:airfoil");
@@ -133,6 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"ShapeAndFile", "shape", "file = 'a.su2'\nshape", "a.toml:3: shape: belongs to a shape"},
         Mistake{"VerticesOfAFile", "shape = 'square'", "file = 'a.su2'\nvertices = 3",
                 "a.toml:3: vertices: "},
+        Mistake{"QuadsOfAShape", "shape", "split_quads = true\nshape",
+                "a.toml:2: split_quads: belongs to a file"},
         Mistake{"EmptyFile", "shape = 'square'", "file = ''",
                 "a.toml:2: file: the name of a mesh file expected"},
         Mistake{"NoText", "'square'", "3", "a.toml:2: shape: 3, a text in quotes expected"},
@@ -235,7 +239,7 @@ TEST(Scenario, SurvivesBeingWrittenOut) {
 TEST(Scenario, IsWrittenWithAbsolutePathsAndDefaults) {
   const std::string text =
       to_toml(parse_scenario(replaced(smallest, "shape = 'square'", "file = '../m.su2'"), "/x/y/a.toml"));
-  EXPECT_THAT(text, HasSubstr("file = '/x/m.su2'"));
+  EXPECT_THAT(text, HasSubstr("file = '/x/m.su2'\nsplit_quads = false\n"));
   EXPECT_THAT(text, HasSubstr("period = 8.0"));
   EXPECT_THAT(text, HasSubstr("integrator = 'rk4'"));
   EXPECT_THAT(text, HasSubstr("frame = 0.25"));

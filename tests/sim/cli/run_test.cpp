@@ -177,6 +177,28 @@ TEST_F(Run, BadScenariosAreNamedWithTheirLine) {
   for (const std::string& name : files()) EXPECT_EQ(fs::path(name).extension(), ".toml") << name;
 }
 
+TEST_F(Run, QuadrilateralsNeedTheOptionOrTheKey) {
+  write("quad.off", "OFF\n4 1 0\n0 0 0\n2 0 0\n2 1 0\n0 1 0\n4 0 1 2 3\n");
+  write("s.toml",
+        "[mesh]\nfile = \"quad.off\"\n[[motion]]\nfield = \"translate\"\nvelocity = [1.0, 0.0]\n"
+        "[border]\ndefault = \"moving\"\n[time]\ndt = 0.1\nsteps = 2\n");
+  expect_error(run({"run", "s.toml"}), 2, {"quad.off:7: ", "--split-quads"});
+  EXPECT_EQ(run({"run", "s.toml", "--set", "mesh.split_quads=true", "-o", "key"}).code, 0);
+  ASSERT_EQ(run({"run", "s.toml", "--split-quads", "-o", "option"}).code, 0);
+  EXPECT_EQ(read_text(path("key/final.off")), read_text(path("option/final.off")));
+  EXPECT_TRUE(has(read_text(path("option/scenario.toml")), "split_quads = true"));
+}
+
+TEST_F(Run, WhatIsWrongWithAMeshIsSaidWithItsFile) {
+  write("bad.su2",
+        "NDIME= 2\nNELEM= 2\n5 0 1 2\n5 0 2 3\nNPOIN= 4\n0 0\n1 0\n1 1\n0 1\n"
+        "NMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n3 1 3\n");
+  write("s.toml",
+        "[mesh]\nfile = \"bad.su2\"\n[[motion]]\nfield = \"jitter\"\namplitude = 0.1\nseed = 1\n"
+        "[time]\ndt = 1.0\nsteps = 2\n");
+  expect_error(run({"run", "s.toml"}), 2, {"bad.su2: ", "wall", "1-3"});
+}
+
 TEST_F(Run, TangledStartPointsToUntangle) {
   write("in.off", grid_off(4, {{6, 2.4, 1.2}}));
   write("s.toml",
