@@ -1,16 +1,17 @@
-#include "untangle/local.h"
 #include "untangle/strategy.h"
 
 #include <fmt/core.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/io/atomic_file.h"
 #include "sim/cli/check_report.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/cli/mesh_arguments.h"
+#include "untangle/local.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -61,12 +62,13 @@ Json to_json(const UntangleArguments& arguments, const Mesh& mesh, const RepairR
 
 void print_summary(const UntangleArguments& arguments, const Mesh& mesh, const RepairRecord& record,
                    const BeforeAndAfter& faces) {
-  std::size_t touched = 0;
-  for (const RegionRecord& region : record.regions) touched += region.user_faces.size();
+  std::set<int> touched;  // regions that are replaced in turn may share faces
+  for (const RegionRecord& region : record.regions)
+    touched.insert(region.user_faces.begin(), region.user_faces.end());
   fmt::print("{} inverted and {} flat faces before, {} and {} after\n", faces.before.inverted,
              faces.before.degenerate, faces.after.inverted, faces.after.degenerate);
-  fmt::print("{} of {} faces replaced, in {} region{}\n", touched, mesh.n_user_faces(), record.regions.size(),
-             record.regions.size() == 1 ? "" : "s");
+  fmt::print("{} of {} faces replaced, in {} region{}\n", touched.size(), mesh.n_user_faces(),
+             record.regions.size(), record.regions.size() == 1 ? "" : "s");
   fmt::print("written: {}\n", arguments.output);
 }
 

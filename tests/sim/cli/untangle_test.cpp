@@ -141,6 +141,21 @@ TEST_F(Untangle, LocalRepairsOneRegionAfterTheOther) {
   expect_same_outside("in.off", "out.off", json);
 }
 
+TEST_F(Untangle, FacesThatAreReplacedTwiceAreCountedOnce) {
+  write("raw.off", grid_off(4, {{8, 1.3, 0.9}, {12, 3.4, 2.5}}));
+  ASSERT_EQ(run({"convert", "raw.off", "in.off"}).code, 0);
+  const Result result =
+      run({"untangle", "in.off", "-o", "out.off", "--strategy", "local", "--report", "r.json"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const Json json = report();
+  std::size_t sum = 0;
+  for (const Json& region : json["regions"]) sum += region["faces"].size();
+  const auto replaced = expect_same_outside("in.off", "out.off", json);
+  EXPECT_LT(replaced.size(), sum);
+  EXPECT_NE(result.out.find(std::to_string(replaced.size()) + " of 32 faces replaced"), std::string::npos)
+      << result.out;
+}
+
 TEST_F(Untangle, SeedRepairsItsRegionAlone) {
   write("raw.off", grid_off(8, {{20, 4.3, 2.2}, {66, 2.4, 5.4}}));
   ASSERT_EQ(run({"convert", "raw.off", "in.off"}).code, 0);
