@@ -1,10 +1,8 @@
-#include <cstdlib>
-#include <limits>
-#include <map>
 #include <span>
 
 #include "core/io/assembler.h"
 #include "core/io/codecs.h"
+#include "core/io/gmsh_groups.h"
 #include "core/io/gmsh_nodes.h"
 #include "core/io/scanner.h"
 
@@ -38,9 +36,6 @@ std::string name_of_type(int type) {
       return "of a kind that is not read";
   }
 }
-
-// Physical groups of a geometric entity, by dimension and tag; only in version 4.
-using Entities = std::map<std::pair<int, int>, std::vector<int>>;
 
 class GmshReader {
  public:
@@ -77,7 +72,7 @@ class GmshReader {
     if (name == "PhysicalNames") return read_physical_names(), true;
     if (name == "Nodes") return read_nodes(), true;
     if (name == "Elements") return read_elements(), true;
-    if (name == "Entities" && version_ == 4) return read_entities(), true;
+    if (name == "Entities" && version_ == 4) return groups_.read_entities(), true;
     if (name == "PartitionedEntities") scanner_.fail("the mesh is partitioned, expected it whole");
     if (name == "ParametricNodes") scanner_.fail("section $ParametricNodes, expected $Nodes");
     return false;
@@ -108,60 +103,7 @@ class GmshReader {
 
   void read_physical_names() {
     if (has_elements_) scanner_.fail("$PhysicalNames after $Elements, expected it before");
-    const int n = scanner_.count("number of physical names", 7);
-    for (int i = 0; i < n; ++i) {
-      const int dimension = scanner_.integer("dimension of a physical group");
-      const int tag = scanner_.integer_here("number of a physical group");
-      const int line = scanner_.line();
-      name_group(dimension, tag, unquoted(scanner_.rest_of_line()), line);
-    }
-  }
-  std::string_view unquoted(std::string_view name) const {
-    if (name.size() < 2 || name.front() != '"' || name.back() != '"') {
-      scanner_.fail("expected the name of a physical group in double quotes");
-    }
-    if (name.find('"', 1) != name.size() - 1) scanner_.fail("quotes within the name of a physical group");
-    return name.substr(1, name.size() - 2);
-  }
-  void name_group(int dimension, int tag, std::string_view name, int line) {
-    if (dimension == 1) marker_of_group_[tag] = mesh_.marker(name, line);
-    if (dimension == 2) name_label(tag, name);
-  }
-  void name_label(int label, std::string_view name) {
-    try {
-      check_name(name);
-    } catch (const InputError& error) {
-      scanner_.fail(error.what());
-    }
-    mesh_.mesh().label_names[label] = name;
-  }
-
-  int marker_of(int group) {
-    const auto [at, is_new] = marker_of_group_.try_emplace(group, none);
-    if (is_new) at->second = mesh_.marker(std::to_string(group), scanner_.line());
-    return at->second;
-  }
-
-  // Version 4: which physical groups the curves and surfaces are in.
-  void read_entities() {
-    int n[4];
-    for (int& count : n) count = scanner_.count("number of entities", 8);
-    for (int dimension = 0; dimension < 4; ++dimension) {
-      for (int i = 0; i < n[dimension]; ++i) read_entity(dimension);
-    }
-  }
-  void read_entity(int dimension) {
-    const int tag = scanner_.integer("number of an entity");
-    const int n_coordinates = dimension == 0 ? 3 : 6;
-    for (int i = 0; i < n_coordinates; ++i) scanner_.word("bounding box of an entity");
-    std::vector<int>& groups = entities_[{dimension, tag}];
-    groups.clear();
-    const int n_groups = scanner_.count("number of physical groups", 2);
-    for (int i = 0; i < n_groups; ++i)
-      groups.push_back(without_direction(scanner_.integer("number of a physical group")));
-    if (dimension == 0) return;
-    const int n_bounding = scanner_.count("number of bounding entities", 2);
-    for (int i = 0; i < n_bounding; ++i) scanner_.integer("number of a bounding entity");
+    groups_.read_names();
   }
 
   void read_nodes() {
@@ -254,16 +196,12 @@ class GmshReader {
     const int tag = scanner_.integer("number of an entity");
     const int type = scanner_.integer("type of elements");
     const int n = scanner_.count("number of elements in a block", 4);
-    const std::vector<int> groups = groups_of(dimension, tag);
+    const std::vector<int> groups = groups_.of_entity(dimension, tag);
     for (int i = 0; i < n; ++i) {
       scanner_.long_integer("number of an element");
       read_element(type, groups);
     }
     return n;
-  }
-  std::vector<int> groups_of(int dimension, int tag) const {
-    const auto at = entities_.find({dimension, tag});
-    return at == entities_.end() ? std::vector<int>{} : at->second;
   }
 
   // The nodes of an element, the last things in its line.
@@ -294,14 +232,10 @@ class GmshReader {
   }
   void add_line(const Edge& edge, std::span<const int> groups) {
     for (int group : groups) {
-      if (group != 0) mesh_.add_marker_edge(marker_of(without_direction(group)), edge, scanner_.line());
+      if (group == 0) continue;
+      const int marker = groups_.marker_of(groups_.without_direction(group));
+      mesh_.add_marker_edge(marker, edge, scanner_.line());
     }
-  }
-  // A group's sign only says which way its curve or surface is seen.
-  int without_direction(int group) const {
-    if (group == std::numeric_limits<int>::min())
-      scanner_.fail(std::to_string(group) + " is no physical group");
-    return std::abs(group);
   }
 
   void only_once(bool& seen, const char* section) {
@@ -311,10 +245,9 @@ class GmshReader {
 
   Scanner scanner_;
   Assembler mesh_;
+  GmshGroups groups_{scanner_, mesh_};
   int version_ = 0;
   NodeNumbers nodes_;
-  Entities entities_;
-  std::map<int, int> marker_of_group_;
   bool has_nodes_ = false, has_elements_ = false, has_several_labels_ = false;
 };
 

@@ -3,6 +3,7 @@ set(KINEMESH_IO_SOURCES
   orient.cpp
   io/assembler.cpp
   io/atomic_file.cpp
+  io/gmsh_groups.cpp
   io/gmsh_read.cpp
   io/gmsh_write.cpp
   io/mesh_io.cpp
@@ -12,6 +13,7 @@ set(KINEMESH_IO_SOURCES
   io/scanner.cpp
   io/su2.cpp
   io/svg.cpp
+  io/svg_frame.cpp
   io/vtu_array.cpp
   io/vtu_read.cpp
   io/vtu_write.cpp

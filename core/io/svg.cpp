@@ -4,12 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <glm/common.hpp>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "core/error.h"
+#include "core/io/svg_frame.h"
 #include "core/io/text_buffer.h"
 #include "core/io/writable.h"
 #include "core/io/xml.h"
@@ -29,48 +28,6 @@ constexpr const char* line_colour = "#7d8ea3";
 constexpr const char* constrained_colour = "#1d2733";
 constexpr double band_height = 40.0;  // of the title and legend, in pixels
 
-// From the user's coordinates to pixels, y down. Halves, so that not even the largest doubles overflow.
-class Frame {
- public:
-  Frame(const ViewBox& view, double width) : view_(view) {
-    const double w = view.upper.x / 2 - view.lower.x / 2, h = view.upper.y / 2 - view.lower.y / 2;
-    scale_ = width / (w > 0 ? w : h > 0 ? h : 1.0);
-    width_ = width;
-    height_ = std::clamp(h * scale_, 1.0, 10 * width);
-    if (h * scale_ > height_) scale_ = height_ / h;
-  }
-  double width() const { return width_; }
-  double height() const { return height_; }
-  Point pixel(const Point& p) const {
-    const double shift = (width_ - (view_.upper.x / 2 - view_.lower.x / 2) * scale_) / 2;
-    return {shift + (p.x / 2 - view_.lower.x / 2) * scale_, (view_.upper.y / 2 - p.y / 2) * scale_};
-  }
-
- private:
-  ViewBox view_;
-  double width_, height_, scale_;
-};
-
-// Everything that is drawn, with a little room around for the lines.
-ViewBox whole(const MeshData& mesh) {
-  ViewBox box{{0, 0}, {1, 1}};
-  bool is_first = true;
-  const auto add = [&](const Point& p) {
-    box.lower = is_first ? p : glm::min(box.lower, p);
-    box.upper = is_first ? p : glm::max(box.upper, p);
-    is_first = false;
-  };
-  for (const Triangle& t : mesh.triangles) {
-    for (int v : t) add(mesh.points[v]);
-  }
-  constexpr double room = 0.02;
-  const double margin = room * std::max(box.upper.x / 2 - box.lower.x / 2, box.upper.y / 2 - box.lower.y / 2);
-  const Point largest(std::numeric_limits<double>::max());
-  box.lower = glm::max(box.lower - margin, -largest);
-  box.upper = glm::min(box.upper + margin, largest);
-  return box;
-}
-
 struct Side {
   Edge ends;  // ascending
   int face;   // none: of a marker
@@ -79,7 +36,9 @@ struct Side {
 class Drawing {
  public:
   Drawing(const MeshData& mesh, const SvgOptions& options)
-      : mesh_(mesh), options_(options), frame_(options.view ? *options.view : whole(mesh), options.width) {
+      : mesh_(mesh),
+        options_(options),
+        frame_(options.view ? *options.view : io::whole_view(mesh), options.width) {
     for (const Point& p : mesh.points) pixels_.push_back(frame_.pixel(p));
     sort_faces();
     sort_edges();
@@ -274,7 +233,7 @@ class Drawing {
 
   const MeshData& mesh_;
   const SvgOptions& options_;
-  Frame frame_;
+  io::SvgFrame frame_;
   std::vector<Point> pixels_;  // per vertex
   std::array<std::vector<int>, label_colours.size()> by_label_;
   std::vector<int> replaced_, inverted_, flat_;
