@@ -5,8 +5,8 @@
 namespace kinemesh::io {
 namespace {
 
-// Bytes of the well-formed UTF-8 character that `text` begins with; 0 if it begins with none [Unicode, table
-// 3-7].
+// Bytes of the well-formed UTF-8 character that `text` begins with; 0 if it begins with none.
+// [Unicode 2022, table 3-7]
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
