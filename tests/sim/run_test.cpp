@@ -6,7 +6,7 @@
 
 #include <csignal>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <sstream>
 
 #include "core/io/mesh_io.h"
 #include "sim/csv_log.h"
@@ -168,8 +168,17 @@ TEST_F(RunTest, RecordsWhatWasRun) {
   EXPECT_TRUE(json.contains("version"));
 }
 
+// Leaves out the seven columns before the last.
 std::string without_times(const std::string& csv) {
-  return std::regex_replace(csv, std::regex(R"((,\d+\.\d{3}){7},(\d)\n)"), ",$2\n");
+  std::string result;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    const auto last = line.rfind(',');
+    auto first = last;
+    for (int i = 0; i < 7; ++i) first = line.rfind(',', first - 1);
+    result += line.erase(first, last - first) + "\n";
+  }
+  return result;
 }
 
 // Every file but run.json, timings apart.
