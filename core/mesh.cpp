@@ -46,27 +46,42 @@ void Mesh::splice(const Patch& patch) noexcept {
   for (std::size_t j = 0; j < patch.edges.size(); ++j)
     edge_constraint_[patch.edges[j]] = patch.constraints[j];
   for (std::size_t i = 0; i < patch.faces.size(); ++i) {
-    const FaceHandle face(patch.faces[i]);
-    const auto& corners = patch.triangles[i];
-    const auto& sides = patch.halfedges[i];
-    n_user_faces_ += (patch.labels[i] != padding_label) - !is_padding(face.idx());
-    labels_[face.idx()] = patch.labels[i];
-    triangles_[face.idx()] = corners;
-    topology_.set_halfedge_handle(face, HalfedgeHandle(sides[0]));
-    for (int k = 0; k < 3; ++k) {
-      const HalfedgeHandle side(sides[k]);
-      topology_.set_face_handle(side, face);
-      topology_.set_vertex_handle(side, VertexHandle(corners[(k + 1) % 3]));
-      topology_.set_next_halfedge_handle(side, HalfedgeHandle(sides[(k + 1) % 3]));
-      // A vertex of the mesh's border keeps pointing along it, as OpenMesh expects.
-      const VertexHandle corner(corners[k]);
-      if (face_of(outgoing(corner.idx())) != none) topology_.set_halfedge_handle(corner, side);
-    }
+    const int face = patch.faces[i];
+    n_user_faces_ += (patch.labels[i] != padding_label) - !is_padding(face);
+    labels_[face] = patch.labels[i];
+    rewrite(face, patch.triangles[i], patch.halfedges[i]);
+  }
+}
+
+void Mesh::flip(int edge) noexcept {
+  const int h = 2 * edge, o = opposite(h), left = face_of(h), right = face_of(o);
+  const int bc = next(h), ca = prev(h), ad = next(o), db = prev(o);
+  const int a = to(ca), b = to(db), c = to(bc), d = to(ad);
+  rewrite(left, {d, b, c}, {db, bc, h});
+  rewrite(right, {c, a, d}, {ca, ad, o});
+}
+
+void Mesh::rewrite(int face, const Triangle& corners, const Triangle& sides) noexcept {
+  triangles_[face] = corners;
+  topology_.set_halfedge_handle(FaceHandle(face), HalfedgeHandle(sides[0]));
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeHandle side(sides[k]);
+    topology_.set_face_handle(side, FaceHandle(face));
+    topology_.set_vertex_handle(side, VertexHandle(corners[(k + 1) % 3]));
+    topology_.set_next_halfedge_handle(side, HalfedgeHandle(sides[(k + 1) % 3]));
+    // A vertex of the mesh's border keeps pointing along it, as OpenMesh expects.
+    const VertexHandle corner(corners[k]);
+    if (face_of(outgoing(corner.idx())) != none) topology_.set_halfedge_handle(corner, side);
   }
 }
 
 Patch Mesh::inverse_of(const Patch& patch) const {
-  Patch inverse{.faces = patch.faces, .triangles = {}, .labels = {}, .halfedges = {}, .edges = patch.edges, .constraints = {}};
+  Patch inverse{.faces = patch.faces,
+                .triangles = {},
+                .labels = {},
+                .halfedges = {},
+                .edges = patch.edges,
+                .constraints = {}};
   for (const int face : patch.faces) {
     inverse.triangles.push_back(triangles_[face]);
     inverse.labels.push_back(labels_[face]);

@@ -121,8 +121,25 @@ class Mesh {
   // The patch that takes this one back: to be asked for before it is spliced.
   Patch inverse_of(const Patch& patch) const;
 
+  // An unconstrained edge inside the padded mesh: both its faces have the same label.
+  bool is_flippable(int edge) const {
+    return edge_constraint_[edge] == none && face_of(2 * edge) != none && face_of(2 * edge + 1) != none;
+  }
+
+  // Turns an edge between two faces into their other diagonal, re-using its handle and theirs. Half-edge 2 *
+  // edge goes from c to d then, with face dbc to its left. Nothing else changes. Pre: is_flippable(edge), c
+  // != d.
+  //      c             c
+  //    /   \         / | \       .
+  //   a --> b  ->   a  |  b
+  //    \   /         \ v /
+  //      d             d
+  void flip(int edge) noexcept;
+
  private:
   friend class MeshBuilder;
+
+  void rewrite(int face, const Triangle& corners, const Triangle& sides) noexcept;
 
   Connectivity topology_;
   std::vector<Point> positions_;

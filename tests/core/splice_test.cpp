@@ -1,4 +1,4 @@
-// Random flips: after each the half-edges, the mirror and OpenMesh's own walks agree.
+// Random flips, as patches and as such: after each the half-edges, the mirror and OpenMesh's own walks agree.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -86,6 +86,60 @@ TEST(Splice, IsTakenBackByItsInverse) {
     after.outgoing = before.outgoing;
     EXPECT_TRUE(after == before);
   }
+}
+
+TEST(Flip, DoesWhatItsPatchDoes) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Mesh flipped = sample(seed), spliced = flipped;
+    Random random(seed);
+    int flips = 0;
+    for (int i = 0; i < 150; ++i) {
+      const int edge = random.below(flipped.n_edges());
+      if (!can_flip(flipped, 2 * edge)) continue;
+      ASSERT_TRUE(flipped.is_flippable(edge));
+      spliced.splice(flip_of(spliced, 2 * edge));
+      flipped.flip(edge);
+      ASSERT_TRUE(snapshot_of(flipped) == snapshot_of(spliced));
+      ++flips;
+    }
+    EXPECT_GT(flips, 10);
+    const auto defect = validate_connectivity(flipped);
+    EXPECT_FALSE(defect) << defect->message();
+    EXPECT_EQ(flipped.domain().triangles, spliced.domain().triangles);
+  }
+}
+
+// Four times the same edge: back to where it was, but for where faces start.
+TEST(Flip, IsUndoneByThreeMore) {
+  Mesh mesh = sample(1);
+  int edge = 0;
+  while (!can_flip(mesh, 2 * edge)) ++edge;
+  const auto ends = [&] { return std::pair(mesh.from(2 * edge), mesh.to(2 * edge)); };
+  const auto first = ends();
+  mesh.flip(edge);
+  EXPECT_NE(ends(), first);
+  mesh.flip(edge);
+  EXPECT_EQ(ends(), std::pair(first.second, first.first));
+  mesh.flip(edge);
+  mesh.flip(edge);
+  EXPECT_EQ(ends(), first);
+}
+
+TEST(Flip, IsNotForConstrainedEdgesAndTheBorder) {
+  const Mesh mesh = sample(2);  // labels, a frame
+  int constrained = 0, outer = 0, flippable = 0;
+  for (int edge = 0; edge < mesh.n_edges(); ++edge) {
+    const int left = mesh.face_of(2 * edge), right = mesh.face_of(2 * edge + 1);
+    constrained += mesh.constraint_of(edge) != none;
+    outer += left == none || right == none;
+    if (!mesh.is_flippable(edge)) continue;
+    ++flippable;
+    EXPECT_EQ(mesh.label(left), mesh.label(right));
+    EXPECT_EQ(mesh.constraint_of(edge), none);
+  }
+  EXPECT_GT(constrained, 0);
+  EXPECT_EQ(outer, 4);
+  EXPECT_EQ(flippable + constrained + outer, mesh.n_edges());
 }
 
 TEST(Splice, CountsFacesThatChangeSides) {
