@@ -11,21 +11,21 @@
 namespace kinemesh {
 namespace {
 
+double twice_area(const std::array<Point, 3>& p) {
+  const Point u = p[1] - p[0], v = p[2] - p[1];
+  return u.x * v.y - u.y * v.x;
+}
+
 struct Partial {
   double area = 0.0;
   double min_area = std::numeric_limits<double>::infinity();
   double min_tangent = std::numeric_limits<double>::infinity();
 
   void add(const std::array<Point, 3>& p) {
-    const Point u = p[1] - p[0], v = p[2] - p[1], w = p[0] - p[2];
-    const auto dot = [](const Point& a, const Point& b) { return -(a.x * b.x + a.y * b.y); };
-    const double twice_area = u.x * v.y - u.y * v.x;
-    // The smallest angle has the largest dot product of its sides; twice_area is the cross product of any
-    // two.
-    const double largest_dot = std::max({dot(u, v), dot(v, w), dot(w, u)});
-    area += 0.5 * twice_area;
-    min_area = std::min(min_area, 0.5 * twice_area);
-    min_tangent = std::min(min_tangent, twice_area > 0.0 ? twice_area / largest_dot : 0.0);
+    const double face_area = 0.5 * twice_area(p);
+    area += face_area;
+    min_area = std::min(min_area, face_area);
+    min_tangent = std::min(min_tangent, tangent_of_smallest_angle(p));
   }
   void join(const Partial& other) {
     area += other.area;
@@ -38,6 +38,14 @@ constexpr int grain =
     1 << 14;  // fixed, so that sums are taken in the same order whatever the number of threads
 
 }  // namespace
+
+// It has the largest dot product of its sides; twice the area is the cross product of any two.
+double tangent_of_smallest_angle(const std::array<Point, 3>& p) {
+  const Point u = p[1] - p[0], v = p[2] - p[1], w = p[0] - p[2];
+  const auto dot = [](const Point& a, const Point& b) { return -(a.x * b.x + a.y * b.y); };
+  const double cross = twice_area(p);
+  return cross > 0.0 ? cross / std::max({dot(u, v), dot(v, w), dot(w, u)}) : 0.0;
+}
 
 Measures measure(const Mesh& mesh) {
   const auto total = tbb::parallel_deterministic_reduce(

@@ -1,6 +1,8 @@
 // The numbers people ask a mesh for first.
 #pragma once
 
+#include <array>
+
 #include "core/mesh.h"
 
 namespace kinemesh {
@@ -10,6 +12,9 @@ struct Measures {
   double min_area = 0.0;       // smallest signed face area
   double min_angle_deg = 0.0;  // smallest angle of any face; 0 if one is flat or inverted
 };
+
+// Of a triangle's smallest angle, rounded; 0 if it is flat or inverted. Grows with the angle.
+double tangent_of_smallest_angle(const std::array<Point, 3>& corners);
 
 // Over the domain's faces; rounded. In all threads; the result does not depend on their number.
 Measures measure(const Mesh& mesh);

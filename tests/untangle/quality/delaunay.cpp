@@ -1,0 +1,78 @@
+#include "tests/untangle/quality/delaunay.h"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "core/predicates.h"
+#include "core/triangulator.h"
+
+namespace kinemesh::test {
+namespace {
+
+using EdgeSet = std::set<Edge>;
+
+Edge sorted(int a, int b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+// From scratch, over the vertices that are in faces.
+EdgeSet triangulated_edges(const Mesh& mesh) {
+  std::vector<int> vertices, number(mesh.n_vertices(), none);
+  std::vector<Point> points;
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    if (mesh.is_isolated(v)) continue;
+    number[v] = static_cast<int>(vertices.size());
+    vertices.push_back(v);
+    points.push_back(mesh.position(v));
+  }
+  std::vector<Edge> constrained;
+  for (const auto& c : mesh.constraints()) constrained.push_back({number[c.from], number[c.to]});
+  Triangulation triangulation;
+  if (Triangulator().triangulate(points, constrained, triangulation)) return {};
+  EdgeSet edges;
+  for (const auto& t : triangulation.triangles) {
+    for (int k = 0; k < 3; ++k) edges.insert(sorted(vertices[t[k]], vertices[t[(k + 1) % 3]]));
+  }
+  return edges;
+}
+
+Edge ends(const Mesh& mesh, int edge) {
+  return sorted(mesh.from(2 * edge), mesh.to(2 * edge));
+}
+
+Side opposite_vertex(const Mesh& mesh, int edge) {
+  const auto [a, b, c] = mesh.corners(mesh.face_of(2 * edge));
+  return in_circle(a, b, c, mesh.position(mesh.to(mesh.next(2 * edge + 1))));
+}
+
+}  // namespace
+
+std::string not_delaunay(const Mesh& mesh) {
+  const auto expected = triangulated_edges(mesh);
+  if (static_cast<int>(expected.size()) != mesh.n_edges()) return "another number of edges";
+  for (int edge = 0; edge < mesh.n_edges(); ++edge) {
+    if (expected.contains(ends(mesh, edge))) continue;
+    if (mesh.constraint_of(edge) != none) return "a constrained edge is missing";
+    if (mesh.is_flippable(edge) && opposite_vertex(mesh, edge) == Side::On) continue;
+    return "edge " + std::to_string(ends(mesh, edge)[0]) + "-" + std::to_string(ends(mesh, edge)[1]) +
+           " is not Delaunay";
+  }
+  return "";
+}
+
+int n_foreign_edges(const Mesh& mesh) {
+  const auto expected = triangulated_edges(mesh);
+  int foreign = 0;
+  for (int edge = 0; edge < mesh.n_edges(); ++edge) foreign += !expected.contains(ends(mesh, edge));
+  return foreign;
+}
+
+int n_not_locally_delaunay(const Mesh& mesh) {
+  int count = 0;
+  for (int edge = 0; edge < mesh.n_edges(); ++edge)
+    count += mesh.is_flippable(edge) && opposite_vertex(mesh, edge) == Side::Inside;
+  return count;
+}
+
+}  // namespace kinemesh::test
