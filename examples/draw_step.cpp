@@ -38,7 +38,8 @@ StepRecord step_to(Stepper& stepper, const Motion& motion, const Scenario& scena
 void draw(const std::string& file, int step, const std::string& svg, const SvgOptions& view) {
   const Scenario scenario = load_scenario(file);
   SetUp made = set_up(scenario);
-  Stepper stepper(std::move(made.mesh), {scenario.repair.strategy, scenario.repair.allow_escaped});
+  Stepper stepper(std::move(made.mesh),
+                  {scenario.repair.strategy, scenario.repair.allow_escaped, scenario.repair.retain});
   const StepRecord record = step_to(stepper, made.motion, scenario, step);
   const auto flags = replaced_faces(stepper.mesh(), record.repair);
   SvgOptions options = view;

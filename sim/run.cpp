@@ -56,7 +56,8 @@ class Runner {
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
-        stepper_(std::move(set_up.mesh), {scenario.repair.strategy, scenario.repair.allow_escaped}),
+        stepper_(std::move(set_up.mesh),
+                 {scenario.repair.strategy, scenario.repair.allow_escaped, scenario.repair.retain}),
         json_(open(directory_, scenario), scenario, options),
         log_(directory_),
         series_(directory_, stepper_.mesh()) {

@@ -196,6 +196,7 @@ RepairSpec read_repair(TomlTable& table) {
   repair.quality = table.text("quality").value_or(repair.quality);
   require_one_of(table, "quality", repair.quality, {"none"});
   repair.allow_escaped = table.boolean("allow_escaped").value_or(repair.allow_escaped);
+  repair.retain = table.boolean("retain").value_or(repair.retain);
   table.refuse_other_keys();
   return repair;
 }

@@ -70,6 +70,7 @@ struct RepairSpec {
   std::string strategy = "global";
   std::string quality = "none";
   bool allow_escaped = false;
+  bool retain = false;
 };
 
 // [output]

@@ -116,6 +116,7 @@ void write(Writer& out, const RepairSpec& repair) {
   out.line("strategy", repair.strategy);
   out.line("quality", repair.quality);
   out.line("allow_escaped", repair.allow_escaped);
+  out.line("retain", repair.retain);
 }
 
 void write(Writer& out, const OutputSpec& output) {

@@ -18,7 +18,7 @@ void MeshSeries::note_step(const StepRecord& record) {
   for (size_t i = 0; i < regions.size(); ++i) {
     for (const int face : regions[i].faces) {
       region_[face] = static_cast<int>(i);
-      replaced_[face] = 1;
+      if (!std::binary_search(regions[i].kept.begin(), regions[i].kept.end(), face)) replaced_[face] = 1;
     }
   }
 }

@@ -83,7 +83,7 @@ void require_forward(double dt) {
 Stepper::Stepper(Mesh mesh, const StepperOptions& options)
     : mesh_(std::move(mesh)),
       strategy_(make_strategy(options.strategy)),
-      repair_{.allow_escaped = options.allow_escaped},
+      repair_{.allow_escaped = options.allow_escaped, .retain = options.retain},
       next_(mesh_.positions().begin(), mesh_.positions().end()) {}
 
 // `move` writes the positions at end_time over those of now and names what made one of them not finite.

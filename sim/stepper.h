@@ -25,6 +25,7 @@ namespace kinemesh {
 struct StepperOptions {
   std::string strategy = "global";  // a name make_strategy knows
   bool allow_escaped = false;       // see RepairOptions
+  bool retain = false;              // see RepairOptions
 };
 
 // What one step did; the columns of steps.csv.

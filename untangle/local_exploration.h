@@ -35,6 +35,7 @@ class LocalExploration {
 
   std::vector<int> faces() const;   // R*, ascending
   std::vector<Cell> cells() const;  // of R over the inverted faces of J, by face and piece
+  const ConvexPieces& shadow() const { return pieces_; }                   // X
   int explored() const { return static_cast<int>(sheets_.all().size()); }  // faces whose corners were read
   int inverted() const { return inverted_; }                               // faces of J
   int components() const { return components_; }                           // of J

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -23,6 +24,7 @@ struct UntangleArguments {
   std::string output;
   std::string strategy = "global";
   std::string report;
+  bool retain = false;
   std::vector<int> seeds;  // the user's numbers; empty: all tangles
 };
 
@@ -63,8 +65,12 @@ Json to_json(const UntangleArguments& arguments, const Mesh& mesh, const RepairR
 void print_summary(const UntangleArguments& arguments, const Mesh& mesh, const RepairRecord& record,
                    const BeforeAndAfter& faces) {
   std::set<int> touched;  // regions that are replaced in turn may share faces
-  for (const RegionRecord& region : record.regions)
-    touched.insert(region.user_faces.begin(), region.user_faces.end());
+  for (const RegionRecord& region : record.regions) {
+    for (const int face : region.faces) {
+      const bool kept = std::binary_search(region.kept.begin(), region.kept.end(), face);
+      if (!kept && !mesh.is_padding(face)) touched.insert(face);
+    }
+  }
   fmt::print("{} inverted and {} flat faces before, {} and {} after\n", faces.before.inverted,
              faces.before.degenerate, faces.after.inverted, faces.after.degenerate);
   fmt::print("{} of {} faces replaced, in {} region{}\n", touched.size(), mesh.n_user_faces(),
@@ -88,7 +94,7 @@ RepairOutcome repair_seeds(const UntangleArguments& arguments, Mesh& mesh) {
     }
     seeds.push_back(faces[seed]);
   }
-  return LocalUntangling().repair_seeds(mesh, seeds, {});
+  return LocalUntangling().repair_seeds(mesh, seeds, {.retain = arguments.retain});
 }
 
 int untangle(const UntangleArguments& arguments) try {
@@ -99,8 +105,8 @@ int untangle(const UntangleArguments& arguments) try {
   const std::unique_ptr<Strategy> strategy = make_strategy(arguments.strategy);
   const MeshData data = read(arguments.mesh);
   Mesh mesh = build(arguments.mesh, data);
-  const RepairOutcome outcome =
-      arguments.seeds.empty() ? strategy->repair(mesh, {}) : repair_seeds(arguments, mesh);
+  const RepairOutcome outcome = arguments.seeds.empty() ? strategy->repair(mesh, {.retain = arguments.retain})
+                                                        : repair_seeds(arguments, mesh);
   if (!outcome) return no_valid_mesh(arguments, *outcome.defect);
 
   const MeshData repaired = mesh.domain();
@@ -135,6 +141,7 @@ void add_untangle(CLI::App& program, Action& action) {
       .add_option("--seed", arguments->seeds,
                   "Untangle only the regions of these inverted faces; for local only")
       ->delimiter(',');
+  command.add_flag("--retain", arguments->retain, "Keep upright faces of a region that need not be replaced");
   command.add_option("--report", arguments->report, "File for what was done, as JSON");
   command.footer(
       "No vertex moves, none is added or lost, and all keep their order. Faces outside the replaced regions\n"
@@ -143,9 +150,9 @@ void add_untangle(CLI::App& program, Action& action) {
       "\"inverted_before\",\n"
       "\"degenerate_before\", \"inverted_after\", \"doubled_edges\", \"regions\": [{\"seed\", \"faces\",\n"
       "\"padding_faces\", \"inverted\", \"components\", \"gamma_first_stable\", \"gamma\", \"explored\",\n"
-      "\"crease_edges\", \"retries\", \"self_overlap\"}]}. A region's faces are those of the file that it\n"
-      "replaced, sorted; its seed is the smallest of them that was inverted or flat, or -1 if\n"
-      "all such faces are padding. `remesh` has one region with all faces.");
+      "\"crease_edges\", \"retries\", \"self_overlap\"}]}. A region's faces are those of the file in\n"
+      "it, sorted; --retain leaves some of them in place. Its seed is the smallest of them that was\n"
+      "inverted or flat, or -1 if all such faces are padding. `remesh` has one region with all faces.");
   command.callback([arguments, &action] { action = [arguments] { return untangle(*arguments); }; });
 }
 
