@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "core/shapes.h"
-#include "tests/core/flips.h"
 #include "tests/core/snapshot.h"
 #include "tests/untangle/quality/delaunay.h"
 #include "tests/untangle/quality/scattered.h"
