@@ -20,8 +20,8 @@ namespace kinemesh {
 // An edge that has to exist again after every repair: border, interface between two labels, marker.
 struct Constraint {
   int from = none, to = none;  // vertices of the mesh
-  int left = 0,
-      right = 0;      // labels of the faces on either side of from -> to; padding_label outside the domain
+  // Labels of the faces on either side of from -> to; padding_label outside the domain.
+  int left = 0, right = 0;
   int marker = none;  // number in marker_names(), the first that holds this edge
 
   bool is_border() const { return (left == padding_label) != (right == padding_label); }

@@ -12,12 +12,11 @@ namespace kinemesh {
 
 // Side k of a triangle runs from corner k to corner k + 1.
 struct NewFaces {
-  std::vector<Triangle> triangles;   // vertices of the mesh, counter-clockwise
-  std::vector<Triangle> neighbours;  // across side k: number of another triangle, or ~h where side k lies
-                                     // along the half-edge h of the region's border, inside the region
-  std::vector<Triangle>
-      constraints;          // of side k: number of a constraint, or none; of no meaning on the border
-  std::vector<int> labels;  // per triangle; set by finish
+  std::vector<Triangle> triangles;    // vertices of the mesh, counter-clockwise
+  std::vector<Triangle> neighbours;   // across side k: number of another triangle, or ~h where side k lies
+                                      // along the half-edge h of the region's border, inside the region
+  std::vector<Triangle> constraints;  // of side k: number of one, or none; of no meaning on the border
+  std::vector<int> labels;            // per triangle; set by finish
 
   int size() const { return static_cast<int>(triangles.size()); }
   void clear();

@@ -17,13 +17,12 @@ struct Cell {
 };
 
 // The construction of Lemma 3.3 [Agarwal 2008], in exact arithmetic. While other tangles remain, the border
-// of R* may overlap itself although that of R does not: f is a bijection between the borders of R and of X =
-// f(J) (Lemma 3.1).
+// of R* may overlap itself although that of R does not: f is a bijection between the borders of R and of
+// X = f(J) (Lemma 3.1).
 //   1. The border of X is what no other piece covers of the crease edges' shadows.
-//   2. The upright faces that cross it cut it into sub-segments, each the image of a piece of the border of
-//   R.
+//   2. The upright faces that cross it cut it into sub-segments, each the image of a part of the border of R.
 //   3. Where these end are extra vertices, unless a vertex of J is there.
-//   4. What lies outside X of each face crossed is triangulated in that face's own sheet,
+//   4. What each face crossed has outside X is triangulated in that face's own sheet,
 //   5. and X, with the vertices in R, in the plane.
 //   6. The triangulations are glued along mesh edges and sub-segments.
 //   7. The extra vertices are removed: the star of each is upright and gets a triangulation without it.

@@ -56,8 +56,7 @@ class RegionMesher {
   std::vector<int> local_of_;  // per vertex of the mesh, or none
   std::vector<int> vertices_;  // the region's, ascending
   std::vector<Point> points_;  // theirs
-  std::vector<Edge>
-      edges_;  // local: first the border, the region to the left, then the constrained inner ones
+  std::vector<Edge> edges_;    // local: the border, the region to its left; then constrained inner ones
   std::vector<int> border_halfedges_;   // of the edges of the border
   std::vector<int> inner_constraints_;  // of the edges behind them
 

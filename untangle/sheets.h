@@ -49,9 +49,8 @@ class Sheets {
   const Mesh& mesh_;
   std::deque<Sheet> sheets_;  // addresses last
   std::unordered_map<int, Sheet*> sheet_of_;
-  boost::geometry::index::rtree<std::pair<Box, int>, boost::geometry::index::linear<16>>
-      index_;  // of open ones
   std::vector<Sheet*> open_;
+  boost::geometry::index::rtree<std::pair<Box, int>, boost::geometry::index::linear<16>> index_;  // of open_
 };
 
 }  // namespace kinemesh

@@ -26,15 +26,14 @@ struct RegionRecord {
   int components = 0;           // inverted components
   int explored = 0;             // faces read as candidates; equals faces.size()
   int border_edges = 0;
-  int crease_edges = 0;  // edges between an inverted and an upright face
-  int gamma_first_stable =
-      1;            // signed cover of the region when extending first came to rest [Agarwal 2008, §4]
-  int gamma = 1;    // and at the end
-  int rounds = 0;   // of growing shadows [Agarwal 2008, §4]
-  int grown = 0;    // convex pieces that these added to the shadow
-  int retries = 0;  // enlargements the safety net needed; 0 outside freak cases
-  bool self_overlap = false;  // the region's border overlaps itself in the plane
-  Point centre{0.0, 0.0};     // of the bounding box of its vertices
+  int crease_edges = 0;        // edges between an inverted and an upright face
+  int gamma_first_stable = 1;  // signed cover when extending first came to rest [Agarwal 2008, §4]
+  int gamma = 1;               // and at the end
+  int rounds = 0;              // of growing shadows [Agarwal 2008, §4]
+  int grown = 0;               // convex pieces that these added to the shadow
+  int retries = 0;             // enlargements the safety net needed; 0 outside freak cases
+  bool self_overlap = false;   // the region's border overlaps itself in the plane
+  Point centre{0.0, 0.0};      // of the bounding box of its vertices
 
   int padding_faces() const { return static_cast<int>(faces.size() - user_faces.size()); }
 };
