@@ -46,6 +46,7 @@ void sizes_and_amplitudes(benchmark::internal::Benchmark* benchmark) {
 }
 
 BENCHMARK_CAPTURE(repair, global, "global")->Apply(sizes_and_amplitudes);
+BENCHMARK_CAPTURE(repair, local, "local")->Apply(sizes_and_amplitudes);
 BENCHMARK_CAPTURE(repair, remesh, "remesh")->Apply(sizes_and_amplitudes);
 
 }  // namespace

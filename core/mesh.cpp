@@ -51,6 +51,8 @@ void Mesh::splice(const Patch& patch) noexcept {
     labels_[face] = patch.labels[i];
     rewrite(face, patch.triangles[i], patch.halfedges[i]);
   }
+  for (const auto& [vertex, halfedge] : patch.outgoing)
+    topology_.set_halfedge_handle(VertexHandle(vertex), HalfedgeHandle(halfedge));
 }
 
 void Mesh::flip(int edge) noexcept {
@@ -86,6 +88,7 @@ Patch Mesh::inverse_of(const Patch& patch) const {
     inverse.triangles.push_back(triangles_[face]);
     inverse.labels.push_back(labels_[face]);
     inverse.halfedges.push_back(sides(face));
+    for (const int v : triangles_[face]) inverse.outgoing.push_back({v, outgoing(v)});
   }
   for (const int edge : patch.edges) inverse.constraints.push_back(edge_constraint_[edge]);
   return inverse;

@@ -36,6 +36,7 @@ struct Patch {
   std::vector<Triangle> halfedges;  // along side k of triangle i, the triangle to its left
   std::vector<int> edges;           // the edges between two of the faces, ascending
   std::vector<int> constraints;     // what becomes of edges[j]: number of a constraint, or none
+  std::vector<Edge> outgoing{};     // vertices and the half-edges where their fans are to start; may be empty
 };
 
 class Mesh {
@@ -70,14 +71,14 @@ class Mesh {
   static int opposite(int h) { return h ^ 1; }
   static int edge_of(int h) { return h >> 1; }
   int halfedge_of(int face) const { return topology_.halfedge_handle(OpenMesh::FaceHandle(face)).idx(); }
-  int outgoing(int vertex) const {
+  int outgoing(int vertex) const {  // or none
     return topology_.halfedge_handle(OpenMesh::VertexHandle(vertex)).idx();
-  }  // or none
+  }
   int next(int h) const { return topology_.next_halfedge_handle(OpenMesh::HalfedgeHandle(h)).idx(); }
   int prev(int h) const { return topology_.prev_halfedge_handle(OpenMesh::HalfedgeHandle(h)).idx(); }
-  int face_of(int h) const {
+  int face_of(int h) const {  // none outside
     return topology_.face_handle(OpenMesh::HalfedgeHandle(h)).idx();
-  }  // none outside
+  }
   int to(int h) const { return topology_.to_vertex_handle(OpenMesh::HalfedgeHandle(h)).idx(); }
   int from(int h) const { return to(opposite(h)); }
   bool is_isolated(int vertex) const { return outgoing(vertex) == none; }
@@ -92,9 +93,8 @@ class Mesh {
   std::span<const Constraint> constraints() const { return constraints_; }
   int constraint_of(int edge) const { return edge_constraint_[edge]; }
   bool is_constrained(int vertex) const { return on_constraint_[vertex]; }  // an end of a constrained edge
-  int home_label(int vertex) const {
-    return home_label_[vertex];
-  }  // around a vertex on no constrained edge, when built
+  // Around a vertex on no constrained edge, when built.
+  int home_label(int vertex) const { return home_label_[vertex]; }
   const std::vector<Marker>& markers() const { return markers_; }  // in the user's numbering
   const std::vector<std::string>& marker_names() const { return marker_names_; }
 
@@ -118,7 +118,7 @@ class Mesh {
   // changes. Pre: the patch covers the same vertices and has the same border as its faces. Cost: O(patch).
   void splice(const Patch& patch) noexcept;
 
-  // The patch that takes this one back: to be asked for before it is spliced.
+  // The patch that takes this one back, bit for bit: to be asked for before it is spliced.
   Patch inverse_of(const Patch& patch) const;
 
   // An unconstrained edge inside the padded mesh: both its faces have the same label.

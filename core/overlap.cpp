@@ -303,7 +303,9 @@ bool meets_interior(const Point& a, const Point& b, std::span<const Shadow> tria
 
 int signed_cover(const Shadow& piece, std::span<const Shadow> sheets) {
   const Point centroid = (piece[0] + piece[1] + piece[2]) / 3.0;
-  if (const auto sum = cover_over(centroid, piece, sheets)) return *sum;
+  if (std::isfinite(centroid.x + centroid.y)) {
+    if (const auto sum = cover_over(centroid, piece, sheets)) return *sum;
+  }
   // Finitely many lines cannot hold all of these points; a sliver may contain no double.
   for (int n = 1;; ++n) {
     if (const auto sum = cover_over(weighted(piece, 1, n, n * n + 1), piece, sheets)) return *sum;

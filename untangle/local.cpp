@@ -55,6 +55,16 @@ class Undo {
   std::vector<Patch> patches_;
 };
 
+// Nothing has been done, but time has been taken.
+RepairRecord without_counts(const RepairRecord& record) {
+  RepairRecord times;
+  times.detect_ms = record.detect_ms;
+  times.explore_ms = record.explore_ms;
+  times.triangulate_ms = record.triangulate_ms;
+  times.splice_ms = record.splice_ms;
+  return times;
+}
+
 std::vector<int> seeds_by_user_number(const Mesh& mesh, const Tangles& tangles) {
   auto seeds = tangles.inverted;
   seeds.insert(seeds.end(), tangles.flat.begin(), tangles.flat.end());
@@ -74,6 +84,7 @@ RepairOutcome LocalUntangling::repair(Mesh& mesh, const RepairOptions& options) 
   outcome.record.inverted = static_cast<int>(tangles.inverted.size());
   outcome.record.degenerate = static_cast<int>(tangles.flat.size());
   outcome.record.components = components.count;
+  outcome.record.doubled_edges = 0;  // an upright mesh has none
   outcome.record.detect_ms += detect_ms;
   return outcome;
 }
@@ -89,14 +100,11 @@ RepairOutcome LocalUntangling::repair_seeds(Mesh& mesh, std::span<const int> see
   RepairOutcome outcome;
   auto& record = outcome.record;
   Undo undo(mesh);
+  has_walked_ = false;
   for (const int seed : seeds) {
     if (is_upright(mesh, seed)) continue;
     auto region = untangle(mesh, seed, options, record);
-    if (region.defect) {
-      outcome.defect = std::move(region.defect);
-      record.regions.clear();
-      return outcome;
-    }
+    if (region.defect) return {without_counts(record), std::move(region.defect)};
     const Stopwatch splicing;
     undo.splice(region.patch);
     record.splice_ms += splicing.milliseconds();
@@ -135,7 +143,6 @@ std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mes
   const int set = sets_.open();
   for (const int face : exploration.faces()) sets_.add(face, set);
   const auto tangles = tangles_among(mesh, sets_.faces(set));
-  if (!tangles.flat.empty()) return std::nullopt;
 
   Region region;
   region.record = describe_region(mesh, sets_, set, tangles, inverted_components(mesh, tangles.inverted));
@@ -187,22 +194,28 @@ void LocalUntangling::finish_region(const Mesh& mesh, const FaceSets& sets, cons
   region.defect = std::move(finished.defect);
 }
 
+// One walk serves all seeds: each region that is replaced lies in one piece, whose border stays.
 LocalUntangling::Region LocalUntangling::piece_of_global_walk(const Mesh& mesh, int seed,
                                                               const RepairOptions& options,
                                                               RepairRecord& times) {
   const Stopwatch exploring;
-  const auto tangles = detect(mesh);
-  walk_globally(mesh, tangles, pieces_.regions());
+  if (!has_walked_) {
+    walk_globally(mesh, detect(mesh), pieces_.regions());
+    pieces_.start();
+    has_walked_ = true;
+  }
   times.explore_ms += exploring.milliseconds();
 
   const Stopwatch triangulating;
-  pieces_.start();
   const int piece = pieces_.regions().set_of(seed);
   Region region;
   region.defect = pieces_.remesh(mesh, options, piece);
   if (!region.defect) {
+    const auto tangles = tangles_among(mesh, pieces_.regions().faces(piece));
     region.record =
         describe_region(mesh, pieces_.regions(), piece, tangles, inverted_components(mesh, tangles.inverted));
+    region.record.seed = mesh.user_face(seed);
+    region.record.fallback = true;
     region.patch = pieces_.patch(piece).patch;
     region.record.kept = pieces_.patch(piece).kept;
     region.record.retries = pieces_.patch(piece).retries;

@@ -50,7 +50,8 @@ class LocalUntangling : public Strategy {
   FaceSets sets_;  // the region at hand
   RegionMesher mesher_;
   Retention retention_;
-  RegionRepair pieces_;
+  RegionRepair pieces_;  // of the global walk of this repair, once one was needed
+  bool has_walked_ = false;
 };
 
 }  // namespace kinemesh

@@ -23,14 +23,14 @@ bool have_common_point(const Sheet& sheet, const ConvexPiece& d, const ConvexPie
 
 bool LocalExploration::run(int seed) {
   extend(seed);
-  walk();
+  if (!walk()) return false;
   gamma_first_stable_ = gamma_ = cover();
   while (gamma_ >= 2 && grow()) {
     ++rounds_;
-    walk();
+    if (!walk()) return false;
     gamma_ = cover();
   }
-  return gamma_ == 1 && !met_flat_face_;
+  return gamma_ == 1;
 }
 
 std::vector<int> LocalExploration::faces() const {
@@ -72,6 +72,7 @@ void LocalExploration::visit(Sheet& sheet, int piece) {
 
 void LocalExploration::mark(Sheet& sheet, int place) {
   sheet.visited[place] = sheet.is_in_region = true;
+  ++sheet.n_visited;
   pending_.push_back({&sheet, sheet.over[place]});
 }
 
@@ -81,7 +82,8 @@ void LocalExploration::mark_all(Sheet& sheet) {
   }
 }
 
-void LocalExploration::walk() {
+// False if a flat face is in the way.
+bool LocalExploration::walk() {
   while (!pending_.empty() && !met_flat_face_) {
     const auto pair = pending_.back();
     pending_.pop_back();
@@ -89,6 +91,7 @@ void LocalExploration::walk() {
     for (const int side : mesh_.sides(pair.sheet->face)) cross(pair, side);
     change_piece(pair);
   }
+  return !met_flat_face_;
 }
 
 void LocalExploration::cross(const Pair& pair, int side) {
@@ -120,7 +123,7 @@ bool LocalExploration::leads_across(const Pair& pair, int side) {
 
 void LocalExploration::change_piece(const Pair& pair) {
   auto& sheet = *pair.sheet;
-  if (sheet.is_within_piece) return;  // all visited
+  if (sheet.n_visited == sheet.over.size()) return;
   const auto& piece = pieces_[pair.piece];
   for (const auto& [side, other] : piece.neighbors) {
     const int place = sheet.place_of(other);

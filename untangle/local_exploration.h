@@ -55,7 +55,7 @@ class LocalExploration {
   void visit(Sheet& sheet, int piece);
   void mark(Sheet& sheet, int place);
   void mark_all(Sheet& sheet);
-  void walk();
+  bool walk();
   void cross(const Pair& pair, int side);
   bool leads_across(const Pair& pair, int side);
   void change_piece(const Pair& pair);

@@ -86,9 +86,9 @@ void Growth::start_at(int crease, const std::vector<const Sheet*>& upright) {
 void Growth::move(const Sheet& moving, const Sheet& staying) {
   for (const int side : mesh_.sides(moving.face)) {
     const int beyond = mesh_.face_of(Mesh::opposite(side));
-    if (beyond == none || beyond == staying.face || !meets(side, staying)) continue;
+    if (beyond == none || !meets(side, staying)) continue;
     const auto& next = sheets_[beyond];
-    if (!next.is_inverted()) add(next, staying);
+    if (next.turn == Orientation::CounterClockwise) add(next, staying);
   }
 }
 

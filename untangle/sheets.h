@@ -23,7 +23,8 @@ struct Sheet {
   bool is_within_piece = false;  // then whatever lies over the face is connected there
   bool is_in_region = false;     // a pair has been visited
   std::vector<int> over{};       // pieces whose interiors meet that of the shadow, ascending
-  std::vector<char> visited{};   // beside `over`: the pair belongs to R
+  std::size_t n_visited = 0;
+  std::vector<char> visited{};  // beside `over`: the pair belongs to R
 
   bool is_inverted() const { return turn == Orientation::Clockwise; }
   int place_of(int piece) const;  // in `over`, or none

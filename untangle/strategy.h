@@ -16,7 +16,8 @@ namespace kinemesh {
 
 // One replaced region. Counts include padding unless said otherwise.
 struct RegionRecord {
-  int seed = none;         // smallest inverted or flat face, user's number; none if all of them are padding
+  int seed = none;         // user's number: `local` the face it started from, others the smallest inverted or
+                           // flat one; none if it is padding, or all of them are
   std::vector<int> faces;  // R*: the mesh's faces (not the user's numbers), ascending, as they were when it
                            // was found; their handles now hold the new faces
   std::vector<int> user_faces;  // the domain's faces among them, user's numbers, ascending
@@ -33,6 +34,7 @@ struct RegionRecord {
   int grown = 0;               // convex pieces that these added to the shadow
   int retries = 0;             // enlargements the safety net needed; 0 outside freak cases
   bool self_overlap = false;   // the region's border overlaps itself in the plane
+  bool fallback = false;       // of `local`: a piece of the global walk, not the minimum region
   Point centre{0.0, 0.0};      // of the bounding box of its vertices
 
   int padding_faces() const { return static_cast<int>(faces.size() - user_faces.size()); }
@@ -45,7 +47,7 @@ struct RepairRecord {
   std::vector<RegionRecord> regions;
   int replaced = 0;       // faces rewritten
   int escaped = 0;        // vertices now on the wrong side of their border or interface
-  int doubled_edges = 0;  // pairs of edges with the same ends
+  int doubled_edges = 0;  // pairs of edges with the same ends that were made while other tangles remained
   int quality_flips = 0;
   double detect_ms = 0.0, explore_ms = 0.0, triangulate_ms = 0.0, splice_ms = 0.0, quality_ms = 0.0;
 

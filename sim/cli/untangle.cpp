@@ -58,7 +58,7 @@ Json to_json(const UntangleArguments& arguments, const Mesh& mesh, const RepairR
           {"inverted_before", faces.before.inverted},
           {"degenerate_before", faces.before.degenerate},
           {"inverted_after", faces.after.inverted},
-          {"doubled_edges", record.doubled_edges},
+          {"doubled_edges", faces.after.inverted + faces.after.degenerate > 0 ? record.doubled_edges : 0},
           {"regions", regions}};
 }
 
@@ -111,7 +111,8 @@ int untangle(const UntangleArguments& arguments) try {
 
   const MeshData repaired = mesh.domain();
   const BeforeAndAfter faces{count_bad_faces(data), count_bad_faces(repaired)};
-  if (outcome.record.doubled_edges > 0) {
+  const bool is_valid = faces.after.inverted + faces.after.degenerate == 0;
+  if (outcome.record.doubled_edges > 0 && !is_valid) {
     print_note(
         fmt::format("{}: {} edges join vertices that another edge joins too, as the mesh is still tangled",
                     arguments.output, outcome.record.doubled_edges));
@@ -122,7 +123,7 @@ int untangle(const UntangleArguments& arguments) try {
     write_file_atomically(arguments.report, report.dump(1) + "\n");
   }
   print_summary(arguments, mesh, outcome.record, faces);
-  return faces.after.inverted + faces.after.degenerate == 0 ? done : not_valid;
+  return is_valid ? done : not_valid;
 } catch (const NoEmbedding& error) {
   return no_valid_mesh(arguments, error.defect());
 }

@@ -12,10 +12,10 @@ namespace {
 using testing::ElementsAre;
 using testing::UnorderedElementsAre;
 
-// Both strategies fail, with everything as it was; global's defect.
+// All strategies fail, with everything as it was; global's defect.
 Defect expect_failure(const Mesh& before, bool allow_escaped = false) {
   Defect defect;
-  for (const char* strategy : {"remesh", "global"}) {
+  for (const char* strategy : {"remesh", "local", "global"}) {
     Mesh mesh = before;
     const auto outcome = repair(mesh, allow_escaped, strategy);
     EXPECT_FALSE(outcome) << strategy;

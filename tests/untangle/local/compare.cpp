@@ -6,8 +6,9 @@
 
 #include "core/build.h"
 #include "core/io/mesh_io.h"
+#include "core/validate.h"
 #include "tests/untangle/local/local_oracle.h"
-#include "untangle/local_exploration.h"
+#include "untangle/local.h"
 
 namespace kinemesh::test {
 namespace {
@@ -33,8 +34,8 @@ class Comparison {
         count(expected_.at(component), counts);
         if (is_small()) compare_minimum(component, counts);
       }
-      const bool left_out = !options_.growing && expected_.at(component).region.growths > 0;
-      if ((first || options_.every_seed) && !left_out) compare_seed(face, expected_.at(component), counts);
+      if (first) compare_repair(face, expected_.at(component));
+      if (first || options_.every_seed) compare_seed(face, expected_.at(component), counts);
     }
   }
 
@@ -72,6 +73,20 @@ class Comparison {
     EXPECT_EQ(fast.rounds() > 0, region.growths > 0) << seed;
     EXPECT_EQ(fast.grown() > 0, region.growths > 0) << seed;
     ++counts.seeds;
+  }
+
+  void compare_repair(int face, const Expected& expected) const {
+    Mesh mesh = mesh_;
+    const std::array<int, 1> seeds{face};
+    const auto outcome = LocalUntangling().repair_seeds(mesh, seeds, {});
+    ASSERT_TRUE(outcome) << outcome.defect->message();
+    const auto& region = outcome.record.regions.at(0);
+    EXPECT_FALSE(region.fallback) << region.seed;
+    EXPECT_EQ(region.faces, expected.region.faces) << region.seed;
+    EXPECT_EQ(region.self_overlap, expected.self_overlapping) << region.seed;
+    EXPECT_EQ(region.seed, mesh_.user_face(face));
+    const auto defect = validate_connectivity(mesh);
+    EXPECT_FALSE(defect) << region.seed << ": " << defect->message();
   }
 
   static void count(const Expected& expected, Counts& counts) {

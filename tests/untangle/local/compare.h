@@ -31,7 +31,6 @@ struct CompareOptions {
   int subsets = 8;         // components up to which all their sets are tried
   int lifts = 4000;        // and lifts
   bool every_seed = true;  // or one of each component only
-  bool growing = true;     // or only where shadows need not grow
 };
 
 // Explores from every inverted face of the mesh and compares with the oracle's region. Failures name the

@@ -28,10 +28,7 @@ std::map<int, Answer> answers(const MeshData& tangle) {
     const auto [a, b, c] = mesh.corners(face);
     if (orientation(a, b, c) != Orientation::Clockwise) continue;
     LocalExploration exploration(mesh);
-    if (!exploration.run(face)) {
-      all[mesh.user_face(face)] = {};  // met a flat face
-      continue;
-    }
+    if (!exploration.run(face)) continue;  // met a flat face
     Answer answer{{}, exploration.components(), exploration.inverted(), exploration.gamma_first_stable()};
     for (const int f : exploration.faces()) answer.faces.push_back(mesh.user_face(f));
     std::ranges::sort(answer.faces);
