@@ -97,6 +97,14 @@ Result ProgramTest::run(const std::vector<std::string>& arguments) const {
   return wait(start(arguments));
 }
 
+bool ProgramTest::has_terminals() {
+  int master = -1, slave = -1;
+  if (openpty(&master, &slave, nullptr, nullptr, nullptr) != 0) return false;
+  close(slave);
+  close(master);
+  return true;
+}
+
 Result ProgramTest::run_on_terminal(const std::vector<std::string>& arguments) const {
   int master = -1, slave = -1;
   if (openpty(&master, &slave, nullptr, nullptr, nullptr) != 0) return {};

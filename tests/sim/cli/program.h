@@ -38,7 +38,8 @@ class ProgramTest : public ::testing::Test {
   pid_t start(const std::vector<std::string>& arguments, int err_file = -1) const;  // -1: kept for wait
   Result wait(pid_t process) const;
 
-  // Likewise, with a terminal as its stderr.
+  // Likewise, with a terminal as its stderr. Pre: has_terminals(), as machines with /dev/pts do.
+  static bool has_terminals();
   Result run_on_terminal(const std::vector<std::string>& arguments) const;
 
   // The contract of an error: this code, nothing on stdout, one line "kinemesh: ..." that has all of `words`.
