@@ -56,8 +56,8 @@ class Runner {
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
-        stepper_(std::move(set_up.mesh),
-                 {scenario.repair.strategy, scenario.repair.allow_escaped, scenario.repair.retain}),
+        stepper_(std::move(set_up.mesh), {scenario.repair.strategy, scenario.repair.allow_escaped,
+                                          scenario.repair.retain, scenario.repair.quality}),
         json_(open(directory_, scenario), scenario, options),
         log_(directory_),
         series_(directory_, stepper_.mesh()) {
@@ -98,7 +98,7 @@ class Runner {
     const Stopwatch writing;
     if (outcome) {
       add_step(summary_, outcome.record, stepper_.mesh().n_faces());
-      series_.note_step(outcome.record);
+      series_.note_step(outcome.record, stepper_.flipped_faces());
     } else {
       summary_.stopped = "step " + std::to_string(n) + " has no valid mesh: " + outcome.defect->message();
     }

@@ -10,6 +10,7 @@
 #include "motion/restriction.h"
 #include "sim/overrides.h"
 #include "sim/toml_table.h"
+#include "untangle/quality/quality_pass.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh {
@@ -194,7 +195,7 @@ RepairSpec read_repair(TomlTable& table) {
   repair.strategy = table.text("strategy").value_or(repair.strategy);
   require_one_of(table, "strategy", repair.strategy, names_of(strategies()));
   repair.quality = table.text("quality").value_or(repair.quality);
-  require_one_of(table, "quality", repair.quality, {"none"});
+  require_one_of(table, "quality", repair.quality, names_of(qualities()));
   repair.allow_escaped = table.boolean("allow_escaped").value_or(repair.allow_escaped);
   repair.retain = table.boolean("retain").value_or(repair.retain);
   table.refuse_other_keys();

@@ -12,7 +12,8 @@ MeshSeries::MeshSeries(const std::filesystem::path& directory, const Mesh& initi
       replaced_(initial.n_faces(), 0),
       region_(initial.n_faces(), none) {}
 
-void MeshSeries::note_step(const StepRecord& record) {
+void MeshSeries::note_step(const StepRecord& record, std::span<const int> flipped_faces) {
+  for (const int face : flipped_faces) replaced_[face] = 1;
   std::fill(region_.begin(), region_.end(), none);
   const auto& regions = record.repair.regions;
   for (size_t i = 0; i < regions.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "core/io/vtu.h"
@@ -11,14 +12,14 @@
 
 namespace kinemesh {
 
-// mesh_NNNNNN.vtu and mesh.pvd. Cell data: `label`, `replaced` (since the file before), `region` (number of
-// the step's region that put the face there, or none); point data: `displacement` since the start.
+// mesh_NNNNNN.vtu and mesh.pvd. Cell data: `label`, `replaced` (since the file before, by a repair or by
+// flips after it), `region` (number of the step's region that put the face there, or none); point data: `displacement` since the start.
 class MeshSeries {
  public:
   MeshSeries(const std::filesystem::path& directory, const Mesh& initial);
 
   // Call after each accepted step, written or not.
-  void note_step(const StepRecord& record);
+  void note_step(const StepRecord& record, std::span<const int> flipped_faces);
 
   // Each throws InputError naming the file. The .pvd never names a file that is not there.
   void write(const Mesh& mesh, int step, double time);

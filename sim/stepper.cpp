@@ -83,6 +83,7 @@ void require_forward(double dt) {
 Stepper::Stepper(Mesh mesh, const StepperOptions& options)
     : mesh_(std::move(mesh)),
       strategy_(make_strategy(options.strategy)),
+      quality_(make_quality(options.quality, mesh_)),
       repair_{.allow_escaped = options.allow_escaped, .retain = options.retain},
       next_(mesh_.positions().begin(), mesh_.positions().end()) {}
 
@@ -121,7 +122,18 @@ void Stepper::repair_moved(StepOutcome& outcome) {
   RepairOutcome repaired = strategy_->repair(mesh_, repair_);
   outcome.record.repair = std::move(repaired.record);
   outcome.defect = std::move(repaired.defect);
-  if (!outcome.defect) moved.keep();
+  if (outcome.defect) return;
+  improve(outcome.record.repair);
+  moved.keep();
+}
+
+// Comes after all that can fail, and cannot: the repair is not undone any more. The initial mesh may have any
+// shape, so the first step looks at all of it; next_ holds the positions before the step.
+void Stepper::improve(RepairRecord& record) {
+  const Stopwatch clock;
+  const auto before = step_ == 0 ? std::span<const Point>() : std::span<const Point>(next_);
+  record.quality_flips = quality_->improve(mesh_, before, record.regions);
+  record.quality_ms = clock.milliseconds();
 }
 
 StepOutcome Stepper::step(std::span<const Point> positions, double dt) {

@@ -18,6 +18,7 @@
 #include "core/defect.h"
 #include "core/mesh.h"
 #include "motion/motion.h"
+#include "untangle/quality/quality_pass.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh {
@@ -26,6 +27,7 @@ struct StepperOptions {
   std::string strategy = "global";  // a name make_strategy knows
   bool allow_escaped = false;       // see RepairOptions
   bool retain = false;              // see RepairOptions
+  std::string quality = "none";     // a name make_quality knows
 };
 
 // What one step did; the columns of steps.csv.
@@ -52,10 +54,12 @@ struct StepOutcome {
 
 class Stepper {
  public:
-  // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy.
+  // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy
+  // or quality.
   explicit Stepper(Mesh mesh, const StepperOptions& options = {});
 
-  // To given positions, one per user's vertex in the user's order. Throws InputError for another number of
+  // To given positions, one per user's vertex in the user's order; with quality "smooth", vertices may be
+  // elsewhere afterwards. Throws InputError for another number of
   // them or a dt that is negative or not finite; mesh and time are then as they were, as after any other
   // exception.
   [[nodiscard]] StepOutcome step(std::span<const Point> positions, double dt);
@@ -71,14 +75,20 @@ class Stepper {
   int steps_done() const { return step_; }
   const Strategy& strategy() const { return *strategy_; }
 
+  // Faces of the mesh, padding included, that flips of the last accepted step rewrote after its repair, each
+  // once.
+  std::span<const int> flipped_faces() const { return quality_->flipped_faces(); }
+
  private:
   template <class Move>
   StepOutcome advance(double end_time, double dt, const Move& move);
   StepOutcome step_by(const Motion& motion, double end_time, double dt);
   void repair_moved(StepOutcome& outcome);
+  void improve(RepairRecord& record);
 
   Mesh mesh_;
   std::unique_ptr<Strategy> strategy_;
+  std::unique_ptr<QualityPass> quality_;
   RepairOptions repair_;
   std::vector<Point> next_;  // positions after the step, then before it
   double time_ = 0.0;

@@ -8,6 +8,7 @@
 #include "core/shapes.h"
 #include "motion/registry.h"
 #include "sim/cli/commands.h"
+#include "untangle/quality/quality_pass.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh::cli {
@@ -87,6 +88,8 @@ int list() {
   fmt::print("\nStrategies: ways to repair a step\n");
   for (const StrategyInfo& strategy : strategies())
     print_entry("  " + strategy.name, 16, strategy.description);
+  fmt::print("\nQualities: what is done for the shape of the faces after each repair\n");
+  for (const QualityInfo& quality : qualities()) print_entry("  " + quality.name, 16, quality.description);
   fmt::print("\nShapes: meshes a scenario can start from\n");
   for (const ShapeInfo& shape : shapes()) print_shape(shape);
   fmt::print("\nFormats: mesh files, by extension\n");
@@ -98,7 +101,7 @@ int list() {
 
 void add_list(CLI::App& program, Action& action) {
   CLI::App& command =
-      *program.add_subcommand("list", "Name the fields, strategies, shapes and formats there are");
+      *program.add_subcommand("list", "Name the fields, strategies, qualities, shapes and formats there are");
   command.callback([&action] { action = list; });
 }
 

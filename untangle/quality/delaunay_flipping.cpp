@@ -19,15 +19,13 @@ int tangled_face_beside(const Mesh& mesh, int edge) {
   return none;
 }
 
-// Pre: both faces are upright. If not, the two form a strictly convex quadrilateral, so that a flip leaves
-// upright faces: the angles opposite the edge add up to more than two right ones.
+}  // namespace
+
 bool is_locally_delaunay(const Mesh& mesh, int edge) {
   const int h = 2 * edge, o = Mesh::opposite(h);
   const auto at = [&](int halfedge) { return mesh.position(mesh.to(halfedge)); };
   return in_circle(at(o), at(h), at(mesh.next(h)), at(mesh.next(o))) != Side::Inside;
 }
-
-}  // namespace
 
 // It ends. A repair takes at least one inverted or flat face out of the mesh, and neither repairs nor flips
 // make new ones: there are finitely many repairs. Between two, lift each vertex (x, y) to x^2 + y^2 and add
@@ -54,10 +52,20 @@ FlipOutcome DelaunayFlipping::run_pending(Mesh& mesh, const RepairOptions& optio
   return outcome;
 }
 
+// An edge waits, and a face is noted, once at most.
+void DelaunayFlipping::reserve(const Mesh& mesh) {
+  pending_.reserve(mesh.n_edges());
+  flipped_faces_.reserve(mesh.n_faces());
+  if (static_cast<int>(is_pending_.size()) < mesh.n_edges()) is_pending_.resize(mesh.n_edges(), false);
+  if (static_cast<int>(is_flipped_.size()) < mesh.n_faces()) is_flipped_.resize(mesh.n_faces(), false);
+}
+
 // A defect or an exception may have left edges behind.
 void DelaunayFlipping::reset(const Mesh& mesh) {
   while (!pending_.empty()) pop();
-  if (static_cast<int>(is_pending_.size()) < mesh.n_edges()) is_pending_.resize(mesh.n_edges(), false);
+  for (const int face : flipped_faces_) is_flipped_[face] = false;
+  flipped_faces_.clear();
+  reserve(mesh);
 }
 
 void DelaunayFlipping::push(int edge) {
@@ -100,9 +108,16 @@ void DelaunayFlipping::untangle(Mesh& mesh, int face, const RepairOptions& optio
 void DelaunayFlipping::flip(Mesh& mesh, int edge) {
   mesh.flip(edge);
   for (const int h : {2 * edge, 2 * edge + 1}) {
+    note_flipped(mesh.face_of(h));
     push(Mesh::edge_of(mesh.next(h)));
     push(Mesh::edge_of(mesh.prev(h)));
   }
+}
+
+void DelaunayFlipping::note_flipped(int face) {
+  if (is_flipped_[face]) return;
+  flipped_faces_.push_back(face);
+  is_flipped_[face] = true;
 }
 
 std::vector<int> edges_of(const Mesh& mesh, std::span<const int> faces) {

@@ -33,6 +33,10 @@ struct FlipOutcome {
 // memory.
 class DelaunayFlipping {
  public:
+  // Takes the memory for any number of flips in meshes of this size: run then allocates none unless it meets
+  // an inverted or flat face, and so cannot fail in a valid mesh.
+  void reserve(const Mesh& mesh);
+
   // From all edges. Without a defect the mesh is valid in the end.
   [[nodiscard]] FlipOutcome run(Mesh& mesh, const RepairOptions& options = {});
 
@@ -40,6 +44,9 @@ class DelaunayFlipping {
   // Cost: their number, four visits a flip, and the repairs. Tangles that no flip meets stay. Throws
   // InputError for an edge that does not exist.
   [[nodiscard]] FlipOutcome run(Mesh& mesh, std::span<const int> edges, const RepairOptions& options = {});
+
+  // Those that the flips of the last run have rewritten, each once, in no order.
+  std::span<const int> flipped_faces() const { return flipped_faces_; }
 
  private:
   void reset(const Mesh& mesh);
@@ -49,11 +56,19 @@ class DelaunayFlipping {
   void visit(Mesh& mesh, int edge, const RepairOptions& options, FlipOutcome& outcome);
   void untangle(Mesh& mesh, int face, const RepairOptions& options, FlipOutcome& outcome);
   void flip(Mesh& mesh, int edge);
+  void note_flipped(int face);
 
   std::vector<int> pending_;      // a stack: what was touched last is still in the cache
   std::vector<char> is_pending_;  // per edge
+  std::vector<int> flipped_faces_;
+  std::vector<char> is_flipped_;  // per face
   LocalUntangling untangler_;
 };
+
+// False if a vertex lies inside the circle around the face on the edge's other side. Pre: is_flippable(edge),
+// both faces upright. If not, the two form a strictly convex quadrilateral, so that a flip leaves upright
+// faces: the angles opposite the edge add up to more than two right ones.
+bool is_locally_delaunay(const Mesh& mesh, int edge);
 
 // The sides of these faces, ascending.
 std::vector<int> edges_of(const Mesh& mesh, std::span<const int> faces);

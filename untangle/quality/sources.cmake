@@ -1,5 +1,8 @@
 # The part of the library untangle that improves meshes.
 set(KINEMESH_QUALITY_SOURCES
   quality/delaunay_flipping.cpp
+  quality/delaunay_upkeep.cpp
   quality/optimal_point.cpp
-  quality/smoothing.cpp)
+  quality/quality_pass.cpp
+  quality/smoothing.cpp
+  quality/vertex_sweeps.cpp)

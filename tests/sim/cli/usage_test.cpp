@@ -3,6 +3,7 @@
 #include "core/shapes.h"
 #include "motion/registry.h"
 #include "program.h"
+#include "untangle/quality/quality_pass.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh::testing {
@@ -39,7 +40,7 @@ TEST_F(Usage, EveryCommandHasHelp) {
   }
 }
 
-TEST_F(Usage, ListNamesFieldsParametersStrategiesShapesAndFormats) {
+TEST_F(Usage, ListNamesFieldsParametersStrategiesQualitiesShapesAndFormats) {
   const Result result = run({"list"});
   EXPECT_EQ(result.code, 0);
   EXPECT_EQ(result.err, "");
@@ -48,6 +49,7 @@ TEST_F(Usage, ListNamesFieldsParametersStrategiesShapesAndFormats) {
     for (const ParameterInfo& parameter : field.parameters) EXPECT_TRUE(has(result.out, parameter.name));
   }
   for (const StrategyInfo& strategy : strategies()) EXPECT_TRUE(has(result.out, "\n  " + strategy.name));
+  for (const QualityInfo& quality : qualities()) EXPECT_TRUE(has(result.out, "\n  " + quality.name));
   for (const ShapeInfo& shape : shapes()) EXPECT_TRUE(has(result.out, "\n  " + shape.name)) << shape.name;
   for (const char* extension : {".off", ".obj", ".ply", ".su2", ".msh", ".vtu", ".svg"})
     EXPECT_TRUE(has(result.out, extension)) << extension;

@@ -1,0 +1,35 @@
+// Keeps a moving mesh the constrained Delaunay triangulation, step after step.
+#pragma once
+
+#include "untangle/quality/delaunay_flipping.h"
+#include "untangle/quality/quality_pass.h"
+
+namespace kinemesh {
+
+// Only edges of faces that are new or have a moved corner can have stopped being locally Delaunay. A parallel
+// sweep finds those that have, and flips start from them. After the first call, which looks at all edges, the
+// cost is that of the changed faces and of the flips, and a comparison per vertex and face. All of the mesh
+// is triangulated so, padding included: it is the constrained Delaunay triangulation of all vertices, those
+// of the frame with them, and the domain's part of it that of the domain, as constrained edges separate the
+// two.
+class DelaunayUpkeep : public QualityPass {
+ public:
+  explicit DelaunayUpkeep(const Mesh& mesh);
+
+  int improve(Mesh& mesh, std::span<const Point> before, std::span<const RegionRecord> replaced) override;
+  std::span<const int> flipped_faces() const override { return flipping_.flipped_faces(); }
+
+ private:
+  void find_changed_faces(const Mesh& mesh, std::span<const Point> before,
+                          std::span<const RegionRecord> replaced);
+  void find_wrong_edges(const Mesh& mesh);
+  void judge_sides(const Mesh& mesh, int face);
+
+  DelaunayFlipping flipping_;
+  std::vector<char> has_moved_;    // per vertex
+  std::vector<char> has_changed_;  // per face: is new or has a moved corner
+  std::vector<char> is_wrong_;     // per edge: not locally Delaunay
+  std::vector<int> wrong_;         // these edges, ascending
+};
+
+}  // namespace kinemesh

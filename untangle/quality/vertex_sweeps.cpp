@@ -1,0 +1,95 @@
+#include "untangle/quality/vertex_sweeps.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/measure.h"
+#include "untangle/quality/around.h"
+
+namespace kinemesh {
+namespace {
+
+bool is_free(const Mesh& mesh, int v) {
+  return mesh.user_vertex(v) != none && !mesh.is_isolated(v) && !mesh.is_constrained(v) && !mesh.is_fixed(v);
+}
+
+double distance_to_nearest_neighbour(const Mesh& mesh, int vertex) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for_each_outgoing(mesh, vertex, [&](int h) {
+    nearest = std::min(nearest, glm::distance(mesh.position(vertex), mesh.position(mesh.to(h))));
+  });
+  return nearest;
+}
+
+// Of the smallest angle around the vertex; 0 if one of its faces is not upright, exactly. As measure has it,
+// to the last bit: corners in the same order.
+double worst_tangent(const Mesh& mesh, int vertex) {
+  double worst = std::numeric_limits<double>::infinity();
+  for_each_outgoing(mesh, vertex, [&](int h) {
+    const int face = mesh.face_of(h);
+    worst = std::min(worst, is_upright(mesh, face) ? tangent_of_smallest_angle(mesh.corners(face)) : 0.0);
+  });
+  return worst;
+}
+
+// Moves the vertex there, or not at all.
+bool try_place(Mesh& mesh, int vertex, const Point& place, const VertexSweeps::Demand& demand) {
+  Point& position = mesh.positions()[vertex];
+  const Point before = position;
+  if (!(glm::distance(before, place) >= demand.least_distance) || place == before) return false;
+  position = place;
+  if (worst_tangent(mesh, vertex) > demand.tangent) return true;
+  position = before;
+  return false;
+}
+
+}  // namespace
+
+VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& options) {
+  std::fill(moved_.begin(), moved_.end(), false);
+  for (int v = 0; v < mesh.n_vertices(); ++v) restless_[v] = is_free(mesh, v);
+  Counts counts;
+  for (int moves = 1; moves > 0 && counts.sweeps < options.max_sweeps; ++counts.sweeps) {
+    moves = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v) moves += restless_[v] && visit(mesh, v, options);
+    counts.moves += moves;
+  }
+  counts.moved = static_cast<int>(std::count(moved_.begin(), moved_.end(), true));
+  return counts;
+}
+
+bool VertexSweeps::visit(Mesh& mesh, int v, const SmoothingOptions& options) {
+  restless_[v] = false;
+  const Demand demand{options.least_move * distance_to_nearest_neighbour(mesh, v), worst_tangent(mesh, v)};
+  const bool moves = options.method == SmoothingMethod::Laplacian ? move_towards_mean(mesh, v, demand)
+                                                                  : move_to_optimum(mesh, v, demand);
+  if (!moves) return false;
+  moved_[v] = restless_[v] = true;
+  for_each_outgoing(mesh, v, [&](int h) { restless_[mesh.to(h)] = is_free(mesh, mesh.to(h)); });
+  return true;
+}
+
+bool VertexSweeps::move_towards_mean(Mesh& mesh, int v, const Demand& demand) {
+  Point sum{0.0, 0.0};
+  int neighbours = 0;
+  for_each_outgoing(mesh, v, [&](int h) {
+    sum += mesh.position(mesh.to(h));
+    ++neighbours;
+  });
+  const Point place = mesh.position(v), mean = sum / static_cast<double>(neighbours);
+  for (const double share : {1.0, 0.5, 0.25}) {
+    if (try_place(mesh, v, place + share * (mean - place), demand)) return true;
+  }
+  return false;
+}
+
+bool VertexSweeps::move_to_optimum(Mesh& mesh, int v, const Demand& demand) {
+  link_.clear();
+  for_each_outgoing(mesh, v, [&](int h) {
+    link_.push_back({mesh.position(mesh.to(h)), mesh.position(mesh.to(mesh.next(h)))});
+  });
+  return try_place(mesh, v, optimal_point(link_, mesh.position(v)), demand);
+}
+
+}  // namespace kinemesh

@@ -1,0 +1,42 @@
+// Sweeps over the free vertices of a valid mesh, each of which moves where that makes its faces better.
+#pragma once
+
+#include <vector>
+
+#include "core/mesh.h"
+#include "untangle/quality/optimal_point.h"
+#include "untangle/quality/smoothing.h"
+
+namespace kinemesh {
+
+// The moves of `smooth`, which has their guarantees, for meshes without tangles. Takes the memory it needs
+// when it is made: run by the Laplacian method does not allocate, and so cannot fail.
+class VertexSweeps {
+ public:
+  explicit VertexSweeps(const Mesh& mesh) : restless_(mesh.n_vertices()), moved_(mesh.n_vertices()) {}
+
+  struct Counts {
+    int sweeps = 0, moves = 0;
+    int moved = 0;  // vertices moved once or more
+  };
+
+  // Of a move: how far it has to go, and what the tangent of the smallest angle around the vertex has to
+  // exceed.
+  struct Demand {
+    double least_distance, tangent;
+  };
+
+  // Pre: the mesh is valid and has the number of vertices of the one this was made for.
+  Counts run(Mesh& mesh, const SmoothingOptions& options);
+
+ private:
+  bool visit(Mesh& mesh, int vertex, const SmoothingOptions& options);
+  bool move_towards_mean(Mesh& mesh, int vertex, const Demand& demand);
+  bool move_to_optimum(Mesh& mesh, int vertex, const Demand& demand);
+
+  std::vector<char> restless_;  // per vertex: free, and something around it has changed since it was visited
+  std::vector<char> moved_;     // per vertex
+  std::vector<LinkEdge> link_;  // around the vertex at hand
+};
+
+}  // namespace kinemesh
