@@ -111,6 +111,21 @@ TEST_P(ShippedScenario, KeepsAValidMeshToItsEnd) {
   EXPECT_LE(largest_difference(first.points, last.points), expected.returns_to);
 }
 
+TEST_P(ShippedScenario, StaysValidUntangledLocallyAndRetaining) {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> overrides = {"mesh.vertices=" + std::to_string(GetParam().vertices),
+                                              "repair.strategy=local", "repair.retain=true"};
+  RunOptions options;
+  options.directory = folder / "out";
+  Watcher watcher;
+  const RunSummary summary = run(load_scenario(shipped(GetParam().name), overrides), options, watcher);
+  ASSERT_FALSE(summary.stopped) << *summary.stopped;
+  EXPECT_GE(summary.steps_tangled, GetParam().tangled_at_least);
+  expect_coherent_logs(options.directory, summary);
+  const auto steps = test::read_csv(options.directory / "steps.csv");
+  EXPECT_LT(steps.sum("replaced"), steps.sum("region_faces"));
+}
+
 constexpr double never = std::numeric_limits<double>::infinity();
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScenario,
