@@ -19,13 +19,15 @@ int tangled_face_beside(const Mesh& mesh, int edge) {
   return none;
 }
 
-}  // namespace
-
+// Pre: both faces are upright. If not, the two form a strictly convex quadrilateral, so that a flip leaves
+// upright faces: the angles opposite the edge add up to more than two right ones.
 bool is_locally_delaunay(const Mesh& mesh, int edge) {
   const int h = 2 * edge, o = Mesh::opposite(h);
   const auto at = [&](int halfedge) { return mesh.position(mesh.to(halfedge)); };
   return in_circle(at(o), at(h), at(mesh.next(h)), at(mesh.next(o))) != Side::Inside;
 }
+
+}  // namespace
 
 // It ends. A repair takes at least one inverted or flat face out of the mesh, and neither repairs nor flips
 // make new ones: there are finitely many repairs. Between two, lift each vertex (x, y) to x^2 + y^2 and add

@@ -65,11 +65,6 @@ class DelaunayFlipping {
   LocalUntangling untangler_;
 };
 
-// False if a vertex lies inside the circle around the face on the edge's other side. Pre: is_flippable(edge),
-// both faces upright. If not, the two form a strictly convex quadrilateral, so that a flip leaves upright
-// faces: the angles opposite the edge add up to more than two right ones.
-bool is_locally_delaunay(const Mesh& mesh, int edge);
-
 // The sides of these faces, ascending.
 std::vector<int> edges_of(const Mesh& mesh, std::span<const int> faces);
 

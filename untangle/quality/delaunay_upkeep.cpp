@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <new>
 
+#include "core/predicates.h"
+
 namespace kinemesh {
 namespace {
 
@@ -71,12 +73,18 @@ void DelaunayUpkeep::find_wrong_edges(const Mesh& mesh) {
   }
 }
 
-// An edge between two changed faces is left to the one with the smaller number.
+// An edge between two changed faces is left to the one with the smaller number. Corners are read from the
+// flat mirror of the faces, which is closer together than the half-edges.
 void DelaunayUpkeep::judge_sides(const Mesh& mesh, int face) {
-  for (const int side : mesh.sides(face)) {
-    const int edge = Mesh::edge_of(side), other = mesh.face_of(Mesh::opposite(side));
-    if (!mesh.is_flippable(edge) || (other < face && has_changed_[other])) continue;
-    is_wrong_[edge] = !is_locally_delaunay(mesh, edge);
+  const auto x = mesh.positions();
+  const auto& t = mesh.triangles()[face];
+  const Triangle sides = mesh.sides(face);
+  for (int k = 0; k < 3; ++k) {
+    const int edge = Mesh::edge_of(sides[k]), other = mesh.face_of(Mesh::opposite(sides[k]));
+    if (other == none || (other < face && has_changed_[other]) || mesh.constraint_of(edge) != none) continue;
+    const auto& o = mesh.triangles()[other];
+    const int apex = o[0] ^ o[1] ^ o[2] ^ t[k] ^ t[(k + 1) % 3];  // what is left of its corners
+    is_wrong_[edge] = in_circle(x[t[0]], x[t[1]], x[t[2]], x[apex]) == Side::Inside;
   }
 }
 
