@@ -66,6 +66,25 @@ class PositionsInPlace {
   bool kept_ = false;
 };
 
+// Takes back what was done to faces, too, unless it is kept. Nothing to do without a tracker.
+class ChangesInPlace {
+ public:
+  ChangesInPlace(Mesh& mesh, ChangeTracker* tracker) : mesh_(mesh), tracker_(tracker) {}
+  ~ChangesInPlace() {
+    if (tracker_) tracker_->take_back(mesh_);
+  }
+  ChangesInPlace(const ChangesInPlace&) = delete;
+  ChangesInPlace& operator=(const ChangesInPlace&) = delete;
+  void keep() {
+    if (tracker_) tracker_->accept(mesh_);
+    tracker_ = nullptr;
+  }
+
+ private:
+  Mesh& mesh_;
+  ChangeTracker* tracker_;
+};
+
 void describe_mesh(const Mesh& mesh, StepRecord& record) {
   const Measures measures = measure(mesh);
   record.vertices = mesh.n_user_vertices();
@@ -112,6 +131,7 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
     ++step_;
     outcome.record.accepted = true;
   }
+  refresh_positions();
   describe_mesh(mesh_, outcome.record);
   outcome.record.total_ms = clock.milliseconds();
   return outcome;
@@ -123,17 +143,54 @@ void Stepper::repair_moved(StepOutcome& outcome) {
   outcome.record.repair = std::move(repaired.record);
   outcome.defect = std::move(repaired.defect);
   if (outcome.defect) return;
+  ChangesInPlace rewritten(mesh_, tracker_.get());
   improve(outcome.record.repair);
+  if (tracker_) tell_observers(outcome.record);
+  rewritten.keep();
   moved.keep();
 }
 
-// Comes after all that can fail, and cannot: the repair is not undone any more. The initial mesh may have any
+// next_ holds the positions before the step. What an observer throws goes through the two guards above.
+void Stepper::tell_observers(const StepRecord& record) {
+  tracker_->note(record.repair.regions, quality_->flipped_faces());
+  const auto patches = tracker_->patches(mesh_, record.repair.regions);
+  const StepChanges changes{.step = record.step,
+                            .time = record.time,
+                            .dt = record.dt,
+                            .mesh = mesh_,
+                            .positions_before = next_,
+                            .repair = record.repair,
+                            .patches = patches};
+  for (const auto& observer : observers_) observer(changes);
+}
+
+// Cannot fail, and is undone by observers only. The initial mesh may have any
 // shape, so the first step looks at all of it; next_ holds the positions before the step.
 void Stepper::improve(RepairRecord& record) {
   const Stopwatch clock;
   const auto before = step_ == 0 ? std::span<const Point>() : std::span<const Point>(next_);
   record.quality_flips = quality_->improve(mesh_, before, record.regions);
   record.quality_ms = clock.milliseconds();
+}
+
+void Stepper::observe(StepObserver observer) {
+  if (!observer) throw InputError("an observer that can be called expected");
+  if (!tracker_) tracker_ = std::make_unique<ChangeTracker>(mesh_);
+  observers_.push_back(std::move(observer));
+}
+
+std::span<Point> Stepper::positions() {
+  if (positions_.empty()) positions_ = mesh_.user_positions();
+  return positions_;
+}
+
+StepOutcome Stepper::repair(double dt) {
+  return step(positions(), dt);
+}
+
+void Stepper::refresh_positions() {
+  for (std::size_t u = 0; u < positions_.size(); ++u)
+    positions_[u] = mesh_.position(mesh_.vertex_of_user(static_cast<int>(u)));
 }
 
 StepOutcome Stepper::step(std::span<const Point> positions, double dt) {

@@ -18,6 +18,8 @@
 #include "core/defect.h"
 #include "core/mesh.h"
 #include "motion/motion.h"
+#include "sim/change_tracker.h"
+#include "sim/step_changes.h"
 #include "untangle/quality/quality_pass.h"
 #include "untangle/strategy.h"
 
@@ -70,13 +72,24 @@ class Stepper {
   // Likewise, and sets time() to end_time exactly.
   [[nodiscard]] StepOutcome step_to(const Motion& motion, double end_time);
 
+  // For whoever lets the stepper hold the positions: one per user's vertex in the user's order, to be moved
+  // in place and then repaired, as a step of length dt. After any step that returns they are those of the
+  // mesh, so that after a refused one the move is taken back.
+  std::span<Point> positions();
+  [[nodiscard]] StepOutcome repair(double dt = 0.0);
+
+  // From now on called within each step that can be accepted, in the order of registration
+  // (sim/step_changes.h). The first one takes memory for the whole mesh; what a step adds to its cost follows
+  // what it changes.
+  void observe(StepObserver observer);
+
   const Mesh& mesh() const { return mesh_; }
   double time() const { return time_; }
   int steps_done() const { return step_; }
   const Strategy& strategy() const { return *strategy_; }
 
   // Faces of the mesh, padding included, that flips of the last accepted step rewrote after its repair, each
-  // once.
+  // once; of no meaning after a step that an observer has vetoed.
   std::span<const int> flipped_faces() const { return quality_->flipped_faces(); }
 
  private:
@@ -85,12 +98,17 @@ class Stepper {
   StepOutcome step_by(const Motion& motion, double end_time, double dt);
   void repair_moved(StepOutcome& outcome);
   void improve(RepairRecord& record);
+  void tell_observers(const StepRecord& record);
+  void refresh_positions();
 
   Mesh mesh_;
   std::unique_ptr<Strategy> strategy_;
   std::unique_ptr<QualityPass> quality_;
   RepairOptions repair_;
-  std::vector<Point> next_;  // positions after the step, then before it
+  std::vector<Point> next_;       // positions after the step, then before it
+  std::vector<Point> positions_;  // what positions() hands out; empty before
+  std::vector<StepObserver> observers_;
+  std::unique_ptr<ChangeTracker> tracker_;  // with observers only
   double time_ = 0.0;
   int step_ = 0;
 };

@@ -24,7 +24,8 @@ struct Snapshot {
   std::vector<Point> positions;
   std::vector<Triangle> triangles;
   std::vector<int> labels;
-  std::vector<int> halfedges;  // next, to and face of each
+  std::vector<int> halfedges;  // next, to, face and constraint of each
+  std::vector<int> outgoing;   // per vertex
   bool operator==(const Snapshot&) const = default;
 };
 Snapshot snapshot(const Mesh& mesh);
