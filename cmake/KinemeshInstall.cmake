@@ -1,5 +1,5 @@
 # Installs the program, the libraries and their headers, and exports the libraries as kinemesh::core, kinemesh::motion,
-# kinemesh::untangle, kinemesh::sim, and kinemesh::kinemesh for all of them.
+# kinemesh::untangle, kinemesh::sim, kinemesh::kinemesh for all of them, and kinemesh::c, the C interface.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -12,11 +12,12 @@ set_target_properties(kinemesh_all PROPERTIES EXPORT_NAME kinemesh)
 list(TRANSFORM KINEMESH_FOLDERS PREPEND kinemesh_ OUTPUT_VARIABLE KINEMESH_LIBRARIES)
 target_link_libraries(kinemesh_all INTERFACE ${KINEMESH_LIBRARIES})
 
-install(TARGETS ${KINEMESH_LIBRARIES} kinemesh_all EXPORT kinemesh-targets)
+install(TARGETS ${KINEMESH_LIBRARIES} kinemesh_all kinemesh_c EXPORT kinemesh-targets)
 install(EXPORT kinemesh-targets NAMESPACE kinemesh:: DESTINATION ${KINEMESH_PACKAGE_DIR})
 # sim/cli/ belongs to the program; what includes CGAL is for our own sources.
 install(DIRECTORY ${KINEMESH_FOLDERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kinemesh
   FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE REGEX "/(cgal_triangulation|surface)\\.h$" EXCLUDE)
+install(FILES c/kinemesh.h TYPE INCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md TYPE DOC)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/kinemesh-config.cmake.in

@@ -1,0 +1,160 @@
+"""The C interface from Python: ctypes and any buffer of doubles; nothing but Python's own library, numpy where it is."""
+
+import ctypes
+import math
+import os
+import random
+import unittest
+from array import array
+from ctypes import POINTER, c_double, c_int, c_int32, c_void_p
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
+LIBRARY = ctypes.CDLL(os.environ["KINEMESH_LIBRARY"])
+LIBRARY.kinemesh_error.restype = ctypes.c_char_p
+LIBRARY.kinemesh_stepper_positions.restype = POINTER(c_double)
+OK, NO_VALID_MESH, BAD_INPUT, _, VETOED = range(5)
+
+
+class Patch(ctypes.Structure):
+    _fields_ = [("n_faces", c_int32), ("faces", POINTER(c_int32)), ("before", POINTER(c_int32)),
+                ("after", POINTER(c_int32)), ("labels_before", POINTER(c_int32)), ("labels_after", POINTER(c_int32)),
+                ("n_vertices", c_int32), ("vertices", POINTER(c_int32))]
+
+
+class Changes(ctypes.Structure):
+    _fields_ = [("step", c_int32), ("time", c_double), ("dt", c_double), ("n_patches", c_int32),
+                ("patches", POINTER(Patch)), ("xy_before", POINTER(c_double)), ("xy_after", POINTER(c_double))]
+
+
+class Step(ctypes.Structure):
+    _fields_ = [("step", c_int32), ("time", c_double), ("dt", c_double),
+                *((name, c_int32) for name in ("n_faces", "inverted", "flat", "regions", "replaced", "flips")),
+                ("min_angle_deg", c_double), ("min_area", c_double)]
+
+
+OBSERVER = ctypes.CFUNCTYPE(c_int, POINTER(Changes), c_void_p)
+
+
+def address(buffer, kind):
+    """Of an array, a numpy array or any other writable buffer: nothing is copied."""
+    return (kind * (len(memoryview(buffer).cast("B")) // ctypes.sizeof(kind))).from_buffer(buffer)
+
+
+def grid(n):
+    points = array("d", (c / n for j in range(n + 1) for i in range(n + 1) for c in (i, j)))
+    triangles = array("i")
+    for j in range(n):
+        for i in range(n):
+            a = j * (n + 1) + i
+            b, c, d = a + 1, a + n + 2, a + n + 1
+            triangles.extend((a, b, c, a, c, d))
+    return points, triangles
+
+
+class Interface(unittest.TestCase):
+    def call(self, function, *arguments):
+        status = getattr(LIBRARY, "kinemesh_" + function)(*arguments)
+        self.assertEqual(status, OK, LIBRARY.kinemesh_error())
+
+    def stepper(self, points, triangles):
+        mesh, stepper = c_void_p(), c_void_p()
+        self.call("mesh_create", len(points) // 2, address(points, c_double), len(triangles) // 3,
+                  address(triangles, c_int32), None, ctypes.byref(mesh))
+        self.call("stepper_create", mesh, None, ctypes.byref(stepper))
+        LIBRARY.kinemesh_mesh_destroy(mesh)
+        self.addCleanup(LIBRARY.kinemesh_stepper_destroy, stepper)
+        return stepper
+
+    def faces(self, stepper):
+        triangles = array("i", bytes(12 * LIBRARY.kinemesh_stepper_n_faces(stepper)))
+        self.call("stepper_get", stepper, None, address(triangles, c_int32), None)
+        return triangles
+
+    def area(self, points, triangles):
+        total = 0.0
+        for f in range(0, len(triangles), 3):
+            (ax, ay), (bx, by), (cx, cy) = (points[2 * v:2 * v + 2] for v in triangles[f:f + 3])
+            area = ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
+            self.assertGreater(area, 0)
+            total += area
+        return total
+
+    def shaken(self, points, n, source):
+        moved = array("d", points)
+        for j in range(1, n):
+            for i in range(1, n):
+                v = 2 * (j * (n + 1) + i)
+                for k in (v, v + 1):
+                    moved[k] = min(max(moved[k] + source.uniform(-1, 1) / n, 0.01), 0.99)
+        return moved
+
+    def test_steps_and_observers(self):
+        n, source = 10, random.Random(3)
+        points, triangles = grid(n)
+        stepper = self.stepper(points, triangles)
+        told, wrong = array("i", triangles), []  # what a callback raises is lost
+
+        def observe(changes, _):
+            for p in range(changes.contents.n_patches):
+                patch = changes.contents.patches[p]
+                for i in range(patch.n_faces):
+                    face = patch.faces[i]
+                    if list(told[3 * face:3 * face + 3]) != patch.before[3 * i:3 * i + 3]:
+                        wrong.append(face)
+                    told[3 * face:3 * face + 3] = array("i", patch.after[3 * i:3 * i + 3])
+            return 0
+
+        observer = OBSERVER(observe)  # has to live as long as the stepper
+        self.call("stepper_observe", stepper, observer, None)
+        replaced, record = 0, Step()
+        for step in range(1, 9):
+            points = self.shaken(points, n, source)
+            self.call("stepper_step", stepper, address(points, c_double), c_double(0.5), ctypes.byref(record))
+            self.assertEqual((record.step, record.time, record.n_faces), (step, step / 2, 2 * n * n))
+            replaced += record.replaced
+            self.assertEqual(wrong, [])
+            self.assertEqual(self.faces(stepper), told)
+            self.assertTrue(math.isclose(self.area(points, told), 1.0))
+        self.assertGreater(replaced, 500)
+
+    def test_veto_and_failure_change_nothing(self):
+        points, triangles = grid(4)
+        stepper = self.stepper(points, triangles)
+        veto = OBSERVER(lambda changes, _: 1)
+        self.call("stepper_observe", stepper, veto, None)
+        moved = self.shaken(points, 4, random.Random(1))
+        step = LIBRARY.kinemesh_stepper_step
+        self.assertEqual(step(stepper, address(moved, c_double), c_double(1), None), VETOED)
+        moved[24:26] = moved[22:24]  # vertex 12 onto 11
+        self.assertEqual(step(stepper, address(moved, c_double), c_double(1), None), NO_VALID_MESH)
+        self.assertIn(b"11", LIBRARY.kinemesh_error())
+        self.assertEqual(step(stepper, address(moved, c_double), c_double(-1), None), BAD_INPUT)
+        self.assertEqual(self.faces(stepper), triangles)
+
+    def test_positions_in_place(self):
+        points, triangles = grid(4)
+        stepper = self.stepper(points, triangles)
+        own = LIBRARY.kinemesh_stepper_positions(stepper)
+        view = memoryview((c_double * len(points)).from_address(ctypes.addressof(own.contents))).cast("B").cast("d")
+        view[24], view[25] = 0.8, 0.55  # vertex 12, through a neighbour's edges
+        self.call("stepper_repair", stepper, c_double(0.0), None)
+        self.assertTrue(math.isclose(self.area(list(view), self.faces(stepper)), 1.0))
+        self.assertNotEqual(self.faces(stepper), triangles)
+
+    @unittest.skipUnless(numpy, "numpy is not here")
+    def test_numpy(self):
+        points, triangles = grid(6)
+        stepper = self.stepper(numpy.array(points), numpy.array(triangles, dtype=numpy.int32))
+        own = numpy.ctypeslib.as_array(LIBRARY.kinemesh_stepper_positions(stepper), shape=(49, 2))
+        self.assertTrue((own == numpy.array(points).reshape(-1, 2)).all())
+        own[24] = (0.9, 0.55)
+        self.call("stepper_repair", stepper, c_double(0.0), None)
+        self.assertTrue(math.isclose(self.area(list(own.flat), self.faces(stepper)), 1.0))
+
+
+if __name__ == "__main__":
+    unittest.main()
