@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/pair.h"
+
 namespace kinemesh {
 namespace {
 
@@ -16,23 +18,67 @@ double twice_area(const std::array<Point, 3>& p) {
   return u.x * v.y - u.y * v.x;
 }
 
-struct Partial {
-  double area = 0.0;
-  double min_area = std::numeric_limits<double>::infinity();
-  double min_tangent = std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
+double smallest(Pair p) {
+  return std::min(p[0], p[1]);
+}
+
+// Of two faces at a time.
+struct Partial {
+  Pair area{0.0, 0.0};
+  Pair min_area{infinity, infinity};
+  Pair min_tangent{infinity, infinity};
+
+  // As tangent_of_smallest_angle.
+  void add(const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
+    const Pair pu = difference(p[1], p[0]), pv = difference(p[2], p[1]), pw = difference(p[0], p[2]);
+    const Pair qu = difference(q[1], q[0]), qv = difference(q[2], q[1]), qw = difference(q[0], q[2]);
+    const auto sum = [](Pair of_p, Pair of_q) { return firsts(of_p, of_q) + seconds(of_p, of_q); };
+    const Pair turn_p = pu * swapped(pv), turn_q = qu * swapped(qv);
+    const Pair cross = firsts(turn_p, turn_q) - seconds(turn_p, turn_q);
+    const Pair dot = -smaller(sum(pu * pv, qu * qv), smaller(sum(pv * pw, qv * qw), sum(pw * pu, qw * qu)));
+    area += 0.5 * cross;
+    min_area = smaller(0.5 * cross, min_area);
+    min_tangent = smaller(cross > 0.0 ? cross / dot : Pair{0.0, 0.0}, min_tangent);
+  }
   void add(const std::array<Point, 3>& p) {
     const double face_area = 0.5 * twice_area(p);
-    area += face_area;
-    min_area = std::min(min_area, face_area);
-    min_tangent = std::min(min_tangent, tangent_of_smallest_angle(p));
+    area[0] += face_area;
+    min_area[0] = std::min(min_area[0], face_area);
+    min_tangent[0] = std::min(min_tangent[0], tangent_of_smallest_angle(p));
   }
   void join(const Partial& other) {
     area += other.area;
-    min_area = std::min(min_area, other.min_area);
-    min_tangent = std::min(min_tangent, other.min_tangent);
+    min_area = smaller(other.min_area, min_area);
+    min_tangent = smaller(other.min_tangent, min_tangent);
   }
 };
+
+constexpr int ahead = 64;  // faces whose corners are on their way from memory
+
+void fetch(const Mesh& mesh, int face) {
+  const auto& t = mesh.triangles()[face];
+  __builtin_prefetch(&mesh.position(t[1]));
+  __builtin_prefetch(&mesh.position(t[2]));
+}
+
+Partial measure(const Mesh& mesh, int begin, int end) {
+  Partial partial;
+  int first = none;  // of a pair
+  for (int f = begin; f < end; ++f) {
+    if (f + ahead < end) fetch(mesh, f + ahead);
+    if (mesh.is_padding(f)) continue;
+    if (first == none) {
+      first = f;
+    } else {
+      partial.add(mesh.corners(first), mesh.corners(f));
+      first = none;
+    }
+  }
+  if (first != none) partial.add(mesh.corners(first));
+  return partial;
+}
 
 constexpr int grain =
     1 << 14;  // fixed, so that sums are taken in the same order whatever the number of threads
@@ -51,16 +97,15 @@ Measures measure(const Mesh& mesh) {
   const auto total = tbb::parallel_deterministic_reduce(
       tbb::blocked_range<int>(0, mesh.n_faces(), grain), Partial{},
       [&](const tbb::blocked_range<int>& range, Partial partial) {
-        for (int f = range.begin(); f != range.end(); ++f) {
-          if (!mesh.is_padding(f)) partial.add(mesh.corners(f));
-        }
+        partial.join(measure(mesh, range.begin(), range.end()));
         return partial;
       },
       [](Partial a, const Partial& b) {
         a.join(b);
         return a;
       });
-  return {total.area, total.min_area, std::atan(total.min_tangent) * 180.0 / std::numbers::pi};
+  return {total.area[0] + total.area[1], smallest(total.min_area),
+          std::atan(smallest(total.min_tangent)) * 180.0 / std::numbers::pi};
 }
 
 double mean_spacing(const Mesh& mesh) {

@@ -21,6 +21,17 @@ inline Box box_of(const std::array<Point, 3>& t) {
           {std::max({t[0].x, t[1].x, t[2].x}), std::max({t[0].y, t[1].y, t[2].y})}};
 }
 
+inline Box hull_of(const Box& a, const Box& b) {
+  const auto &p = a.min_corner(), &q = b.min_corner(), &r = a.max_corner(), &s = b.max_corner();
+  return {{std::min(p.x(), q.x()), std::min(p.y(), q.y())}, {std::max(r.x(), s.x()), std::max(r.y(), s.y())}};
+}
+
+// Borders included. All four comparisons, rather than a branch after each.
+inline bool meet(const Box& a, const Box& b) {
+  const auto &p = a.min_corner(), &q = b.min_corner(), &r = a.max_corner(), &s = b.max_corner();
+  return (p.x() <= s.x()) & (q.x() <= r.x()) & (p.y() <= s.y()) & (q.y() <= r.y());
+}
+
 // Pre: the boxes meet.
 inline Box common(const Box& a, const Box& b) {
   const auto &p = a.min_corner(), &q = b.min_corner(), &r = a.max_corner(), &s = b.max_corner();

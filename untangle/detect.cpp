@@ -5,23 +5,54 @@
 
 #include <algorithm>
 
+#include "core/pair.h"
 #include "core/predicates.h"
 
 namespace kinemesh {
 namespace {
 
 constexpr int chunk = 1 << 14;  // faces a task sweeps
+constexpr int ahead = 64;       // faces whose positions are on their way from memory
+
+// The two products of orientation(), {l, r}.
+Pair products(const Point* x, const Triangle& t) {
+  return difference(x[t[0]], x[t[2]]) * swapped(difference(x[t[1]], x[t[2]]));
+}
+
+// Of each of two faces: -1 if the filter of orientation() proves it upright.
+PairMask proves_upright(const Point* x, const Triangle& t, const Triangle& u) {
+  const Pair p = products(x, t), q = products(x, u);
+  const Pair l = firsts(p, q), r = seconds(p, q);
+  return l - r > orientation_error * (magnitude(l) + magnitude(r)) + underflow_error;
+}
+
+void judge(const Point* x, const Triangle* triangles, int f, Tangles& found) {
+  const auto [a, b, c] = triangles[f];
+  const auto turn = orientation(x[a], x[b], x[c]);
+  if (turn == Orientation::CounterClockwise) return;
+  (turn == Orientation::Clockwise ? found.inverted : found.flat).push_back(f);
+}
+
+void fetch(const Point* x, const Triangle& t) {
+  __builtin_prefetch(&x[t[1]]);
+  __builtin_prefetch(&x[t[2]]);
+}
 
 void sweep(const Mesh& mesh, int begin, int end, Tangles& found) {
   const Point* const x = mesh.positions().data();
   const Triangle* const triangles = mesh.triangles().data();
-  for (int f = begin; f < end; ++f) {
-    const auto [a, b, c] = triangles[f];
-    const auto turn = orientation(x[a], x[b], x[c]);
-    if (turn == Orientation::CounterClockwise) [[likely]]
+  const int last = mesh.n_faces() - 1;
+  int f = begin;
+  for (; f + 1 < end; f += 2) {
+    fetch(x, triangles[std::min(f + ahead, last)]);
+    fetch(x, triangles[std::min(f + 1 + ahead, last)]);
+    const PairMask upright = proves_upright(x, triangles[f], triangles[f + 1]);
+    if (upright[0] & upright[1]) [[likely]]
       continue;
-    (turn == Orientation::Clockwise ? found.inverted : found.flat).push_back(f);
+    judge(x, triangles, f, found);
+    judge(x, triangles, f + 1, found);
   }
+  if (f < end) judge(x, triangles, f, found);
 }
 
 void append(std::vector<int>& all, const std::vector<int>& some) {

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "core/stopwatch.h"
-#include "untangle/global_walk.h"
 #include "untangle/records.h"
 
 namespace kinemesh {
@@ -31,7 +30,7 @@ RepairOutcome GlobalUntangling::repair(Mesh& mesh, const RepairOptions& options)
   }
 
   const Stopwatch exploring;
-  walk_globally(mesh, tangles, repair_.regions());
+  walk_.run(mesh, tangles, repair_.regions());
   record.explore_ms = exploring.milliseconds();
 
   const Stopwatch triangulating;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "untangle/detect.h"
+#include "untangle/global_walk.h"
 #include "untangle/region_repair.h"
 #include "untangle/strategy.h"
 
@@ -19,6 +20,7 @@ class GlobalUntangling : public Strategy {
   std::optional<Defect> remesh(const Mesh& mesh, const RepairOptions& options);
   void describe(const Mesh& mesh, const Tangles& tangles, RepairRecord& record) const;
 
+  GlobalWalk walk_;
   RegionRepair repair_;
 };
 

@@ -4,6 +4,7 @@
 #include "core/mesh.h"
 #include "untangle/detect.h"
 #include "untangle/face_sets.h"
+#include "untangle/shadow_index.h"
 
 namespace kinemesh {
 
@@ -14,9 +15,26 @@ namespace kinemesh {
 // In general position the faces reached are exactly R* = phi(I)* [Agarwal 2008, §5]: where every inverted
 // face is a seed, the whole preimage of their shadow is wanted, so neither signs nor growing are needed
 // (Theorem 5.1). In degenerate positions rule (iii) adds the faces without which a region's border would
-// touch a shadow. Each connected piece of the walk becomes a set of `regions`, in the order of their first
-// tangled face, the faces of each ascending. Reads the data of no face that is not in a region.
-// Deterministic.
-void walk_globally(const Mesh& mesh, const Tangles& tangles, FaceSets& regions);
+// touch a shadow.
+class GlobalWalk {
+ public:
+  // Each connected piece of the walk becomes a set of `regions`, in the order of their first tangled face,
+  // the faces of each ascending. Reads the data of no face that is not in a region. Deterministic. Keeps
+  // scratch memory for the next.
+  void run(const Mesh& mesh, const Tangles& tangles, FaceSets& regions);
+
+ private:
+  void visit(int face);
+  void leave(int face);
+  bool is_conflicting(int side) const;
+
+  const Mesh* mesh_ = nullptr;
+  FaceSets* regions_ = nullptr;
+  int region_ = none;             // the one that is being walked
+  std::vector<int> tangled_;      // F, ascending
+  std::vector<bool> is_tangled_;  // per face; all false between runs
+  ShadowIndex shadows_;           // of F
+  std::vector<int> pending_;
+};
 
 }  // namespace kinemesh

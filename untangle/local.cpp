@@ -200,7 +200,7 @@ LocalUntangling::Region LocalUntangling::piece_of_global_walk(const Mesh& mesh, 
                                                               RepairRecord& times) {
   const Stopwatch exploring;
   if (!has_walked_) {
-    walk_globally(mesh, detect(mesh), pieces_.regions());
+    GlobalWalk().run(mesh, detect(mesh), pieces_.regions());
     pieces_.start();
     has_walked_ = true;
   }

@@ -115,7 +115,8 @@ class Construction {
   bool is_piece(int face) const { return over_.contains(face); }
 
   void trace_border() {
-    const ShadowIndex index(mesh_, pieces_);
+    ShadowIndex index;
+    index.build(mesh_, pieces_);
     for (const int piece : pieces_) {
       for (const int side : mesh_.sides(piece)) {
         const int across = mesh_.face_of(Mesh::opposite(side));
@@ -129,8 +130,9 @@ class Construction {
     const int from = mesh_.to(side), to = mesh_.from(side);
     const Point &a = mesh_.position(from), &b = mesh_.position(to);
     std::vector<Interval> covered;
-    index.for_each_near(a, b, [&](int other) {
+    index.any_near(a, b, [&](int other) {
       if (other != piece) add_interval(a, b, other, covered);
+      return false;
     });
     const auto low_first = [](const Interval& i, const Interval& j) {
       return is_before(i.low, j.low) || (i.face < j.face && !is_before(j.low, i.low));

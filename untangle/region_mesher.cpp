@@ -18,6 +18,14 @@ Edge sorted(const Edge& edge) {
 }  // namespace
 
 RegionMesher::Result RegionMesher::run(const Mesh& mesh, const FaceSets& sets, int set) {
+  if (small_.run(mesh, sets, set)) {
+    std::swap(new_faces_, small_.new_faces());
+    return Result::Done;
+  }
+  return run_generally(mesh, sets, set);
+}
+
+RegionMesher::Result RegionMesher::run_generally(const Mesh& mesh, const FaceSets& sets, int set) {
   mesh_ = &mesh;
   collect(sets, set);
   if (const auto contact = triangulator_.triangulate(points_, edges_, triangulation_)) {

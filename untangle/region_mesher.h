@@ -9,6 +9,7 @@
 #include "core/triangulator.h"
 #include "untangle/face_sets.h"
 #include "untangle/new_faces.h"
+#include "untangle/small_region_mesher.h"
 
 namespace kinemesh {
 
@@ -27,6 +28,9 @@ class RegionMesher {
   // Pre: sets.faces(set) ascending. Reads nothing outside the set. Deterministic. Keeps scratch memory for
   // the next.
   [[nodiscard]] Result run(const Mesh& mesh, const FaceSets& sets, int set);
+
+  // The same without the short cut for small regions.
+  [[nodiscard]] Result run_generally(const Mesh& mesh, const FaceSets& sets, int set);
 
   // Of the last region.
   NewFaces& new_faces() { return new_faces_; }
@@ -49,6 +53,7 @@ class RegionMesher {
   int user(int local) const { return mesh_->user_vertex(vertices_[local]); }
   Edge user_edge(int edge) const { return {user(edges_[edge][0]), user(edges_[edge][1])}; }
 
+  SmallRegionMesher small_;
   const Mesh* mesh_ = nullptr;
   Triangulator triangulator_;
   Triangulation triangulation_;

@@ -2,13 +2,11 @@
 
 namespace kinemesh {
 
-ShadowIndex::ShadowIndex(const Mesh& mesh, std::span<const int> faces) {
-  std::vector<Entry> entries;
-  entries.reserve(faces.size());
-  for (const int f : faces) {
-    entries.emplace_back(box_of(mesh.corners(f)), f);
-  }
-  tree_ = decltype(tree_)(entries);  // packed
+void ShadowIndex::build(const Mesh& mesh, std::span<const int> faces) {
+  faces_.assign(faces.begin(), faces.end());
+  boxes_.clear();
+  for (const int face : faces) boxes_.push_back(box_of(mesh.corners(face)));
+  tree_.build(boxes_);
 }
 
 }  // namespace kinemesh

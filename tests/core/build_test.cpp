@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "core/measure.h"
@@ -188,6 +190,29 @@ TEST(Measure, TellsAreaAngleAndSpacing) {
   EXPECT_DOUBLE_EQ(measures.min_area, 1);
   EXPECT_DOUBLE_EQ(measures.min_angle_deg, 45);
   EXPECT_DOUBLE_EQ(mean_spacing(mesh), std::sqrt(4.0 / 5));
+}
+
+// Padding left out, faces of either orientation, an odd number of them.
+TEST(Measure, IsThatOfEachFaceInTurn) {
+  Random random(7);
+  for (int n = 3; n < 40; ++n) {
+    Mesh mesh = build_mesh(u_shape(3 * n, random), {.frame = 0.25, .fixed = {}});
+    const double shift = n % 2 == 0 ? 1e-9 : 0.5;
+    for (Point& p : mesh.positions())
+      p += Point(random.between(-shift, shift), random.between(-shift, shift));
+    double area = 0.0, min_area = std::numeric_limits<double>::infinity(), min_tangent = min_area;
+    for (const int face : mesh.faces_in_user_order()) {
+      const auto [a, b, c] = mesh.corners(face);
+      const double face_area = 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+      area += face_area;
+      min_area = std::min(min_area, face_area);
+      min_tangent = std::min(min_tangent, tangent_of_smallest_angle(mesh.corners(face)));
+    }
+    const auto measures = measure(mesh);
+    EXPECT_NEAR(measures.area, area, 1e-12);
+    EXPECT_NEAR(measures.min_area, min_area, 1e-15);
+    EXPECT_NEAR(measures.min_angle_deg, std::atan(min_tangent) * 180.0 / std::numbers::pi, 1e-10);
+  }
 }
 
 TEST(Measure, IsZeroDegreesForFlatAndInvertedFaces) {
