@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <random>
 #include <stdexcept>
@@ -11,51 +10,17 @@
 #include "core/validate.h"
 #include "sim/stepper.h"
 #include "tests/sim/helpers.h"
+#include "tests/sim/kicks.h"
 
 namespace kinemesh {
 namespace {
 
+using test::all_ways;
 using test::grid_with_hole;
+using test::kicked;
 using test::snapshot;
-
-// Two labels, a hole and a frame, so that regions reach padding and interfaces.
-MeshData two_labels(int n) {
-  MeshData data = grid_with_hole(n, n / 2 - 1, n / 2 + 1);
-  for (const auto& t : data.triangles) data.labels.push_back(data.points[t[0]].x < 0.25 ? 7 : 3);
-  return data;
-}
-
-Stepper stepper_on(const MeshData& data, const StepperOptions& options) {
-  return Stepper(build_mesh(data, {.frame = 0.25, .fixed = {}}), options);
-}
-
-// Of two_labels(12): left and right of the interface, and the hole.
-int zone(const Point& p) {
-  const bool in_hole = std::max(std::abs(p.x - 0.5), std::abs(p.y - 0.5)) <= 1.0 / 12;
-  return p.x <= 0.25 ? 0 : in_hole ? 1 : 2;
-}
-
-// Moves the vertices on no border and no interface by up to `kick`, but not into another zone.
-std::vector<Point> kicked(const Stepper& stepper, double kick, std::mt19937& random) {
-  const Mesh& mesh = stepper.mesh();
-  std::uniform_real_distribution<double> way(-kick, kick);
-  auto next = mesh.user_positions();
-  for (int u = 0; u < mesh.n_user_vertices(); ++u) {
-    const Point to{std::clamp(next[u].x + way(random), 0.01, 0.99),
-                   std::clamp(next[u].y + way(random), 0.01, 0.99)};
-    if (!mesh.is_constrained(mesh.vertex_of_user(u)) && zone(to) == zone(next[u])) next[u] = to;
-  }
-  return next;
-}
-
-std::vector<StepperOptions> all_ways() {
-  std::vector<StepperOptions> all;
-  for (const char* strategy : {"global", "local", "remesh"})
-    for (const char* quality : {"none", "delaunay", "smooth"})
-      for (const bool retain : {false, true})
-        all.push_back({.strategy = strategy, .retain = retain, .quality = quality});
-  return all;
-}
+using test::stepper_on;
+using test::two_labels;
 
 // Directed edges of the faces without their opposites, and how often each label occurs.
 struct Outline {
@@ -140,7 +105,7 @@ struct Replica {
 
 TEST(Observers, AreToldAllThatChangesAndNothingElseDoes) {
   for (const auto& options : all_ways()) {
-    SCOPED_TRACE(options.strategy + " " + options.quality + (options.retain ? " retain" : ""));
+    SCOPED_TRACE(test::name_of(options));
     std::mt19937 random(17);
     const auto data = two_labels(12);
     Stepper stepper = stepper_on(data, options);
@@ -165,7 +130,7 @@ TEST(Observers, AreToldAllThatChangesAndNothingElseDoes) {
 
 TEST(Observers, WhatTheyVetoDidNotHappen) {
   for (const auto& options : all_ways()) {
-    SCOPED_TRACE(options.strategy + " " + options.quality + (options.retain ? " retain" : ""));
+    SCOPED_TRACE(test::name_of(options));
     std::mt19937 random(5);
     Stepper stepper = stepper_on(two_labels(12), options), undisturbed = stepper_on(two_labels(12), options);
     bool is_against = false;
