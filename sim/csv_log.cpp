@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 
@@ -37,20 +41,84 @@ std::string regions_csv_row(int step, int number, const RegionRecord& r) {
 }
 
 LineFile::LineFile(const std::filesystem::path& path, std::string_view header)
-    : path_(path.string()), file_(std::fopen(path_.c_str(), "wb")) {
-  if (!file_) throw InputError(path_, 0, std::string("cannot write: ") + std::strerror(errno));
-  write(header);
+    : path_(path.string()),
+      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail();
+  try {
+    write(header);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+LineFile::LineFile(const std::filesystem::path& path, std::uint64_t length)
+    : path_(path.string()),
+      descriptor_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)),
+      length_(length) {
+  struct stat status;
+  const bool is_open = descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0;
+  const bool is_long_enough = is_open && static_cast<std::uint64_t>(status.st_size) >= length;
+  if (is_long_enough && ::ftruncate(descriptor_, static_cast<off_t>(length)) == 0) return;
+  const int error = errno;
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (is_open && !is_long_enough)
+    throw InputError(
+        path_, 0,
+        fmt::format("{} bytes long, at least {} expected by the checkpoint", status.st_size, length));
+  errno = error;
+  fail();
+}
+
+LineFile::~LineFile() {
+  ::close(descriptor_);
+}
+
+void LineFile::fail() const {
+  throw InputError(path_, 0, std::string("cannot write: ") + std::strerror(errno));
 }
 
 void LineFile::write(std::string_view line) {
-  const bool is_written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() &&
-                          std::fputc('\n', file_.get()) != EOF && std::fflush(file_.get()) == 0;
-  if (!is_written) throw InputError(path_, 0, std::string("cannot write: ") + std::strerror(errno));
+  const std::string text = std::string(line) + "\n";
+  for (size_t done = 0; done < text.size();) {
+    const ssize_t n = ::write(descriptor_, text.data() + done, text.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      const int error = errno;
+      shorten(length_);
+      errno = error;
+      fail();
+    }
+    done += static_cast<size_t>(n);
+  }
+  length_ += text.size();
+}
+
+// What is no file of the disk has nothing to flush.
+void LineFile::flush() {
+  if (::fsync(descriptor_) != 0 && errno != EINVAL) fail();
+}
+
+void LineFile::shorten(std::uint64_t length) noexcept {
+  if (::ftruncate(descriptor_, static_cast<off_t>(length)) == 0) length_ = length;
 }
 
 StepLog::StepLog(const std::filesystem::path& directory)
     : steps_(directory / "steps.csv", steps_csv_header),
       regions_(directory / "regions.csv", regions_csv_header) {}
+
+StepLog::StepLog(const std::filesystem::path& directory, const LogLengths& lengths)
+    : steps_(directory / "steps.csv", lengths.steps), regions_(directory / "regions.csv", lengths.regions) {}
+
+void StepLog::flush() {
+  steps_.flush();
+  regions_.flush();
+}
+
+void StepLog::shorten(const LogLengths& lengths) noexcept {
+  steps_.shorten(lengths.steps);
+  regions_.shorten(lengths.regions);
+}
 
 void StepLog::write(const StepRecord& record) {
   for (size_t i = 0; i < record.repair.regions.size(); ++i)

@@ -1,9 +1,8 @@
 // steps.csv and regions.csv: what each step touched, a line at a time.
 #pragma once
 
-#include <cstdio>
+#include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 
@@ -11,20 +10,31 @@
 
 namespace kinemesh {
 
-// A text file that grows by whole lines, each handed to the system when it is written.
+// A text file that grows by whole lines, each handed to the system when it is written. Errors are InputErrors
+// naming file and reason.
 class LineFile {
  public:
-  // Replaces what is there. All throw InputError naming file and reason.
-  LineFile(const std::filesystem::path& path, std::string_view header);
-  void write(std::string_view line);
+  LineFile(const std::filesystem::path& path, std::string_view header);  // replaces what is there
+  LineFile(const std::filesystem::path& path, std::uint64_t length);     // goes on behind so many bytes
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+  ~LineFile();
+
+  void write(std::string_view line);  // whole, or nothing of it unless the disk fails altogether
+  void flush();                       // to the disk
+  std::uint64_t length() const { return length_; }  // bytes
+  void shorten(std::uint64_t length) noexcept;      // takes back what was written since; as far as it can
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
+  [[noreturn]] void fail() const;
 
   std::string path_;
-  std::unique_ptr<std::FILE, Close> file_;
+  int descriptor_;
+  std::uint64_t length_ = 0;
+};
+
+struct LogLengths {
+  std::uint64_t steps = 0, regions = 0;  // bytes
 };
 
 // Numbers are the shortest decimals that read back as the same double, times of phases milliseconds with
@@ -32,9 +42,14 @@ class LineFile {
 class StepLog {
  public:
   explicit StepLog(const std::filesystem::path& directory);
+  StepLog(const std::filesystem::path& directory, const LogLengths& lengths);  // drops what comes behind them
 
   // One row in steps.csv, one per region in regions.csv; for rejected steps, too.
   void write(const StepRecord& record);
+
+  void flush();
+  LogLengths lengths() const { return {steps_.length(), regions_.length()}; }
+  void shorten(const LogLengths& lengths) noexcept;
 
  private:
   LineFile steps_;

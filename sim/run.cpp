@@ -8,7 +8,9 @@
 #include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
 #include "core/measure.h"
+#include "core/mesh_state.h"
 #include "core/stopwatch.h"
+#include "sim/checkpoint.h"
 #include "sim/csv_log.h"
 #include "sim/run_directory.h"
 #include "sim/run_report.h"
@@ -56,21 +58,40 @@ class Runner {
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
-        stepper_(std::move(set_up.mesh), {scenario.repair.strategy, scenario.repair.allow_escaped,
-                                          scenario.repair.retain, scenario.repair.quality}),
+        stepper_(set_up.mesh, stepper_options(scenario)),
         json_(open(directory_, scenario), scenario, options),
         log_(directory_),
-        series_(directory_, stepper_.mesh()) {
-    summary_.plan = std::move(plan);
-    json_.write(summary_, RunState::Running);
+        series_(directory_, set_up.mesh) {
+    checkpoint_.origin = origin_of(set_up.mesh);
+    begin(std::move(plan));
     write_mesh_of_step();
+  }
+
+  // Goes on from a checkpoint. set_up: of its initial mesh.
+  Runner(const Scenario& scenario, const RunOptions& options, RunObserver& observer, SetUp set_up,
+         RunPlan plan, Restart from)
+      : scenario_(scenario),
+        observer_(observer),
+        directory_(plan.directory),
+        motion_(std::move(set_up.motion)),
+        stepper_(std::move(from.mesh), stepper_options(scenario), from.checkpoint.time, from.checkpoint.step),
+        json_(directory_, scenario, options),
+        log_(directory_, from.checkpoint.logs),
+        series_(directory_, set_up.mesh, from.checkpoint.series),
+        summary_(from.checkpoint.totals),
+        checkpoint_(std::move(from.checkpoint)),
+        last_checkpoint_(checkpoint_.step) {
+    begin(std::move(plan));
   }
 
   RunSummary run() {
     guarded([&] {
-      for (int n = 1; n <= scenario_.time.steps && !summary_.stopped; ++n) do_step(n);
+      while (stepper_.steps_done() < scenario_.time.steps && !summary_.stopped) do_step();
     });
-    guarded([&] { write_last(); });
+    if (!is_file_broken_) {
+      if (summary_.stopped) guarded([&] { write_checkpoint_of_step(); });
+      guarded([&] { write_last(); });
+    }
     list_files();
     guarded([&] { json_.write(summary_, summary_.stopped ? RunState::Stopped : RunState::Done); });
     return std::move(summary_);
@@ -83,37 +104,84 @@ class Runner {
     return directory;
   }
 
+  static StepperOptions stepper_options(const Scenario& scenario) {
+    return {scenario.repair.strategy, scenario.repair.allow_escaped, scenario.repair.retain,
+            scenario.repair.quality};
+  }
+
+  void begin(RunPlan plan) {
+    checkpoint_.program = KINEMESH_VERSION;
+    checkpoint_.scenario = to_toml(scenario_);
+    checkpoint_.logs = log_.lengths();
+    summary_.plan = std::move(plan);
+    json_.write(summary_, RunState::Running);
+  }
+
   // What fails once the run is under way ends it; the first reason counts.
   template <class F>
   void guarded(const F& f) {
     try {
       f();
     } catch (const std::exception& error) {
-      if (!summary_.stopped) summary_.stopped = error.what();
+      if (!summary_.stopped) stop(error.what(), true);
     }
   }
 
-  void do_step(int n) {
+  void stop(const std::string& why, bool can_resume) {
+    summary_.stopped = why;
+    summary_.can_resume = can_resume;
+  }
+
+  void do_step() {
+    const int n = stepper_.steps_done() + 1;
     const StepOutcome outcome = stepper_.step_to(motion_, scenario_.time.time_after(n));
-    const Stopwatch writing;
     if (outcome) {
-      add_step(summary_, outcome.record, stepper_.mesh().n_faces());
-      series_.note_step(outcome.record, stepper_.flipped_faces());
+      write_step(outcome.record);
     } else {
-      summary_.stopped = "step " + std::to_string(n) + " has no valid mesh: " + outcome.defect->message();
+      stop("step " + std::to_string(n) + " has no valid mesh: " + outcome.defect->message(), false);
+      log_.write(outcome.record);
     }
-    log_.write(outcome.record);
-    if (outcome && is_written(n)) series_.write(stepper_.mesh(), n, stepper_.time());
-    summary_.ms.write += writing.milliseconds();
     observer_.stepped(outcome.record, stepper_.mesh());
     if (const char* signal = StopOnSignals::received();
         signal && n < scenario_.time.steps && !summary_.stopped)
-      summary_.stopped = std::string("stopped by ") + signal + " after step " + std::to_string(n);
+      stop(std::string("stopped by ") + signal + " after step " + std::to_string(n), true);
   }
 
-  bool is_written(int n) const {
-    const int every = scenario_.output.every;
-    return n == scenario_.time.steps || (every > 0 && n % every == 0);
+  // Log, mesh and checkpoint of an accepted step. Where the first two cannot be written, files are as before.
+  void write_step(const StepRecord& record) {
+    const Stopwatch writing;
+    series_.note_step(record, stepper_.flipped_faces());
+    is_file_broken_ = true;
+    try {
+      log_.write(record);
+      if (is_multiple(record.step, scenario_.output.every)) write_mesh_of_step();
+    } catch (...) {
+      log_.shorten(checkpoint_.logs);
+      throw;
+    }
+    is_file_broken_ = false;
+    checkpoint_.logs = log_.lengths();
+    add_step(summary_, record, stepper_.mesh().n_faces());
+    if (is_multiple(record.step, scenario_.output.checkpoint)) write_checkpoint_of_step();
+    summary_.ms.write += writing.milliseconds();
+  }
+
+  // Or the last step. Every 0 steps is never.
+  bool is_multiple(int step, int of) const {
+    return of > 0 ? step % of == 0 || step == scenario_.time.steps : false;
+  }
+
+  // The lengths are those at the end of the last accepted step: a rejected one comes again.
+  void write_checkpoint_of_step() {
+    if (last_checkpoint_ == stepper_.steps_done()) return;
+    checkpoint_.mesh = state_of(stepper_.mesh());
+    checkpoint_.time = stepper_.time();
+    checkpoint_.step = stepper_.steps_done();
+    checkpoint_.totals = summary_;
+    checkpoint_.series = series_.state();
+    log_.flush();
+    write_checkpoint(directory_, checkpoint_);
+    last_checkpoint_ = checkpoint_.step;
   }
 
   void write_mesh_of_step() { series_.write(stepper_.mesh(), stepper_.steps_done(), stepper_.time()); }
@@ -140,12 +208,21 @@ class Runner {
   StepLog log_;
   MeshSeries series_;
   RunSummary summary_;
+  Checkpoint checkpoint_;    // its origin and scenario, and the logs' lengths after the last accepted step
+  int last_checkpoint_ = 0;  // step
+  bool is_file_broken_ = false;  // the last step is done, but not in the files
 };
 
-void tell_notes(const Scenario& scenario, const SetUp& set_up, RunObserver& observer) {
-  for (const auto& note : set_up.notes) observer.note(note);
-  if (scenario.output.checkpoint > 0)
-    observer.detail("this version writes no checkpoints, output.checkpoint has no effect");
+SetUp set_up_for(const Scenario& scenario, const std::optional<Restart>& restart) {
+  return restart ? set_up(scenario, restart->initial) : set_up(scenario);
+}
+
+RunSummary go(const Scenario& scenario, const RunOptions& options, RunObserver& observer, SetUp made,
+              RunPlan plan, std::optional<Restart> restart) {
+  const StopOnSignals signals(options.stop_on_signals);
+  if (restart)
+    return Runner(scenario, options, observer, std::move(made), std::move(plan), std::move(*restart)).run();
+  return Runner(scenario, options, observer, std::move(made), std::move(plan)).run();
 }
 
 }  // namespace
@@ -153,19 +230,24 @@ void tell_notes(const Scenario& scenario, const SetUp& set_up, RunObserver& obse
 RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver& observer) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<size_t>(thread_count(options.threads)));
-  check_run_directory(directory_of(scenario, options), scenario, options.force);
-  SetUp made = set_up(scenario);
-  RunPlan plan = plan_of(scenario, options, made.mesh);
-  tell_notes(scenario, made, observer);
-  observer.started(plan);
-
+  const auto directory = directory_of(scenario, options);
+  check_run_directory(directory, scenario, options.force || options.resume);
+  std::optional<Restart> restart;
   RunSummary summary;
-  if (options.dry_run) {
-    summary.plan = std::move(plan);
-  } else {
-    const StopOnSignals signals(options.stop_on_signals);
-    summary = Runner(scenario, options, observer, std::move(made), std::move(plan)).run();
+  if (options.resume) {
+    require_run_of(to_toml(scenario), directory);
+    if ((summary.was_finished = holds_finished_run(directory))) return summary;
+    restart = last_checkpoint(directory, to_toml(scenario));
   }
+  SetUp made = set_up_for(scenario, restart);
+  RunPlan plan = plan_of(scenario, options, made.mesh);
+  if (restart) plan.steps_done = restart->checkpoint.step;
+  for (const auto& note : made.notes) observer.note(note);
+  observer.started(plan);
+  if (options.dry_run)
+    summary.plan = std::move(plan);
+  else
+    summary = go(scenario, options, observer, std::move(made), std::move(plan), std::move(restart));
   observer.finished(summary);
   return summary;
 }

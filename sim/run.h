@@ -14,6 +14,7 @@ namespace kinemesh {
 struct RunOptions {
   std::filesystem::path directory;  // empty: the scenario's name in the current folder
   bool force = false;               // a run that is already there makes way
+  bool resume = false;              // goes on with the run that is there from its last checkpoint
   bool dry_run = false;             // check everything, step nothing, write nothing
   int threads = 0;                  // 0: all cores
   std::vector<std::string> argv;    // for run.json
@@ -25,6 +26,7 @@ struct RunPlan {
   std::filesystem::path directory;
   std::string strategy;
   int steps = 0;
+  int steps_done = 0;  // before, by the run that is resumed
   double end_time = 0.0;
   int threads = 1;
   int vertices = 0, faces = 0;  // of the domain
@@ -56,6 +58,8 @@ struct RunSummary {
   long long retries = 0;
   PhaseTimes ms;
   std::optional<std::string> stopped;        // why it ended early; nothing: all steps ended valid
+  bool can_resume = false;                   // stopped by something else than a step without valid mesh
+  bool was_finished = false;                 // the run to resume had come to its end: nothing was done
   std::vector<std::filesystem::path> files;  // to open: the series, the last mesh, the logs
 };
 
@@ -74,10 +78,16 @@ class RunObserver {
 // final.EXT in the input's own format into options.directory. The files but the two CSVs, which grow a line
 // at a time, are whole or not there. Results do not depend on the number of threads, timings apart.
 //
+// Every output.checkpoint steps, and where a run is stopped, it writes checkpoint.bin, and the one before stays
+// as checkpoint_prev.bin. With `resume` a run goes on from there, after whatever ended it at whatever moment: in
+// the end all files are bit for bit those of an uninterrupted run, but for the columns of steps.csv that end in
+// _ms, run.json and the checkpoints themselves. Without a checkpoint it starts anew.
+//
 // Throws InputError before the first step, with nothing written, for whatever is wrong with scenario, mesh or
-// directory; a tangled mesh and a moving convex hull without frame among them. What goes wrong later, a step
-// without valid mesh, a full disk, a signal, ends the run: `stopped` says why, and the last valid mesh is
-// written.
+// directory; a tangled mesh and a moving convex hull without frame among them; with `resume`, a checkpoint
+// that is damaged or not of this scenario. What goes wrong later, a step without valid mesh, a full disk, a
+// signal, ends the run: `stopped` says why, and the last valid mesh is written. Where a file cannot be written,
+// the logs and the series go back to the step before, and the last checkpoint stays.
 RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver& observer);
 
 }  // namespace kinemesh

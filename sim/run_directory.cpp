@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
 
 namespace kinemesh {
@@ -15,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 7> fixed_names = {"scenario.toml",      "run.json", "steps.csv",
-                                                         "regions.csv",        "mesh.pvd", "checkpoint.bin",
-                                                         "checkpoint_prev.bin"};
+constexpr std::array<std::string_view, 8> fixed_names = {
+    "scenario.toml", "run.json",       "steps.csv",           "regions.csv",
+    "mesh.pvd",      "checkpoint.bin", "checkpoint_prev.bin", "checkpoint_next.bin"};
 
 bool is_mesh_of_series(std::string_view name) {
   if (!name.starts_with("mesh_") || !name.ends_with(".vtu") || name.size() < 15) return false;
@@ -29,6 +31,11 @@ bool is_last_mesh(const std::string& name) {
   return name.starts_with("final.") && fs::path(name).stem() == "final" && format_of(name).has_value();
 }
 
+// write_file_atomically was interrupted.
+bool is_half_written(std::string_view name) {
+  return name.starts_with(".kinemesh-") && name.ends_with(".tmp");
+}
+
 bool holds_run(const fs::path& directory) {
   return std::ranges::any_of(std::array{"run.json", "scenario.toml", "steps.csv"},
                              [&](const char* name) { return fs::exists(directory / name); });
@@ -38,11 +45,22 @@ bool holds_run(const fs::path& directory) {
   throw InputError(path.string(), 0, what);
 }
 
-std::vector<fs::path> run_files(const fs::path& directory) {
+template <class Predicate>
+std::vector<fs::path> files_that(const fs::path& directory, const Predicate& is_wanted) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(directory))
-    if (!entry.is_directory() && is_run_file(entry.path().filename().string())) files.push_back(entry.path());
+    if (!entry.is_directory() && is_wanted(entry.path().filename().string())) files.push_back(entry.path());
   return files;
+}
+
+// Calls f() and tells of the file system's errors in our words.
+template <class F>
+void with_file_errors(const fs::path& directory, const F& f) {
+  try {
+    f();
+  } catch (const fs::filesystem_error& error) {
+    fail(error.path1().empty() ? directory : error.path1(), error.code().message());
+  }
 }
 
 void refuse_to_replace(const fs::path& input, const fs::path& directory) {
@@ -60,7 +78,20 @@ std::string mesh_file_name(int step) {
 
 bool is_run_file(const std::string& name) {
   return std::ranges::find(fixed_names, name) != fixed_names.end() || is_mesh_of_series(name) ||
-         is_last_mesh(name);
+         is_last_mesh(name) || is_half_written(name);
+}
+
+bool holds_finished_run(const fs::path& directory) {
+  if (!fs::exists(directory / "run.json")) return false;
+  const auto json = nlohmann::json::parse(read_file(directory / "run.json"), nullptr, false);
+  return json.is_object() && json.value("state", nlohmann::json()) == "done";
+}
+
+void require_run_of(const std::string& scenario, const fs::path& directory) {
+  const fs::path file = directory / "scenario.toml";
+  if (!fs::exists(file)) return;
+  if (const auto differs = scenario_difference(read_file(file), scenario))
+    fail(file, "the run in this folder is of another scenario: " + *differs);
 }
 
 void check_run_directory(const fs::path& directory, const Scenario& scenario, bool force) {
@@ -69,19 +100,34 @@ void check_run_directory(const fs::path& directory, const Scenario& scenario, bo
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status)) fail(directory, "is not a folder");
   if (holds_run(directory) && !force)
-    fail(directory, "holds a run already; --force replaces it, -o names another folder");
+    fail(directory,
+         "holds a run already; --resume goes on with it, --force replaces it, -o names another folder");
   // The resolved scenario of an earlier run may be run again: it is written as it was.
   if (!fs::exists(directory / "run.json")) refuse_to_replace(scenario.file, directory);
   if (!scenario.mesh.file.empty()) refuse_to_replace(scenario.mesh.file, directory);
 }
 
 void clear_run_directory(const fs::path& directory) {
-  try {
+  const auto is_not_scenario = [](const std::string& name) {
+    return is_run_file(name) && name != "scenario.toml";
+  };
+  with_file_errors(directory, [&] {
     fs::create_directories(directory);
-    for (const auto& file : run_files(directory)) fs::remove(file);
-  } catch (const fs::filesystem_error& error) {
-    fail(error.path1().empty() ? directory : error.path1(), error.code().message());
-  }
+    for (const char* name : {"run.json", "checkpoint.bin", "checkpoint_prev.bin"})
+      fs::remove(directory / name);
+    for (const auto& file : files_that(directory, is_not_scenario)) fs::remove(file);
+    fs::remove(directory / "scenario.toml");
+  });
+}
+
+void remove_later_meshes(const fs::path& directory, std::span<const std::string> kept) {
+  const auto is_later = [&](const std::string& name) {
+    return is_last_mesh(name) || is_half_written(name) ||
+           (is_mesh_of_series(name) && std::ranges::find(kept, name) == kept.end());
+  };
+  with_file_errors(directory, [&] {
+    for (const auto& file : files_that(directory, is_later)) fs::remove(file);
+  });
 }
 
 }  // namespace kinemesh

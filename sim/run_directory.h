@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "sim/scenario.h"
@@ -13,11 +14,22 @@ std::string mesh_file_name(int step);  // mesh_000042.vtu
 // True for the names run writes, whatever its scenario.
 bool is_run_file(const std::string& name);
 
+// True if run.json says that the run in the folder came to its end.
+bool holds_finished_run(const std::filesystem::path& directory);
+
+// Throws InputError if the folder holds a run of another scenario (a text as to_toml makes it).
+void require_run_of(const std::string& scenario, const std::filesystem::path& directory);
+
 // Throws InputError, changing nothing: not a folder; a run is there and `force` is not given; or the scenario
 // or its mesh is one of the files that would be replaced.
 void check_run_directory(const std::filesystem::path& directory, const Scenario& scenario, bool force);
 
-// Makes the folder, or removes the run files from it, and nothing else. Throws InputError naming the path.
+// Makes the folder, or removes the run files from it, and nothing else. What a run could be resumed from goes
+// first, and what says whose files they are last. Throws InputError naming the path.
 void clear_run_directory(const std::filesystem::path& directory);
+
+// Removes what an interrupted run wrote after its checkpoint: meshes not named here, the last mesh, files left
+// half written. Throws InputError naming the path.
+void remove_later_meshes(const std::filesystem::path& directory, std::span<const std::string> kept);
 
 }  // namespace kinemesh

@@ -104,4 +104,7 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& file
 // The scenario with absolute paths and every default written out: loads back to the same run, bit by bit.
 std::string to_toml(const Scenario& scenario);
 
+// The first line in which two texts of to_toml differ, in words; nothing if they are the same.
+std::optional<std::string> scenario_difference(const std::string& there, const std::string& here);
+
 }  // namespace kinemesh

@@ -138,4 +138,15 @@ std::string to_toml(const Scenario& scenario) {
   return out.text();
 }
 
+std::optional<std::string> scenario_difference(const std::string& there, const std::string& here) {
+  if (there == here) return std::nullopt;
+  std::istringstream lines(there), other_lines(here);
+  for (std::string line, other; true;) {
+    const bool is_line = static_cast<bool>(std::getline(lines, line));
+    const bool is_other = static_cast<bool>(std::getline(other_lines, other));
+    if (is_line && is_other && line == other) continue;
+    return (is_line ? line : "no more lines") + " there, " + (is_other ? other : "no more lines") + " here";
+  }
+}
+
 }  // namespace kinemesh

@@ -110,13 +110,18 @@ void require_still_hull(const Scenario& scenario, const Mesh& mesh, const Border
 
 SetUp set_up(const Scenario& scenario) {
   ReadResult read = data_of(scenario.mesh);
-  Mesh mesh = mesh_of(scenario.mesh, read.mesh);
+  SetUp made = set_up(scenario, mesh_of(scenario.mesh, read.mesh));
+  made.notes = std::move(read.notes);
+  return made;
+}
+
+SetUp set_up(const Scenario& scenario, Mesh mesh) {
   BorderConditions border = border_of(scenario, mesh);
   auto terms = terms_of(scenario, mesh, border);
   try {
     require_still_hull(scenario, mesh, border);
     Motion motion(mesh, std::move(terms), std::move(border), scenario.time.integrator);
-    return {std::move(mesh), std::move(motion), std::move(read.notes)};
+    return {std::move(mesh), std::move(motion), {}};
   } catch (const ParameterError& error) {
     throw error_at(where_of(scenario, error.key()), error.what());
   }

@@ -20,4 +20,7 @@ struct SetUp {
 // a convex hull without frame moves. Throws InputError otherwise.
 SetUp set_up(const Scenario& scenario);
 
+// The same for a mesh that is there already.
+SetUp set_up(const Scenario& scenario, Mesh mesh);
+
 }  // namespace kinemesh

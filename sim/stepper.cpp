@@ -99,12 +99,14 @@ void require_forward(double dt) {
 
 }  // namespace
 
-Stepper::Stepper(Mesh mesh, const StepperOptions& options)
+Stepper::Stepper(Mesh mesh, const StepperOptions& options, double time, int steps_done)
     : mesh_(std::move(mesh)),
       strategy_(make_strategy(options.strategy)),
       quality_(make_quality(options.quality, mesh_)),
       repair_{.allow_escaped = options.allow_escaped, .retain = options.retain},
-      next_(mesh_.positions().begin(), mesh_.positions().end()) {}
+      next_(mesh_.positions().begin(), mesh_.positions().end()),
+      time_(time),
+      step_(steps_done) {}
 
 // `move` writes the positions at end_time over those of now and names what made one of them not finite.
 template <class Move>

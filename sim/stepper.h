@@ -58,7 +58,8 @@ class Stepper {
  public:
   // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy
   // or quality.
-  explicit Stepper(Mesh mesh, const StepperOptions& options = {});
+  // time, steps_done: of an earlier stepper whose work this one goes on with.
+  explicit Stepper(Mesh mesh, const StepperOptions& options = {}, double time = 0.0, int steps_done = 0);
 
   // To given positions, one per user's vertex in the user's order; with quality "smooth", vertices may be
   // elsewhere afterwards. Throws InputError for another number of
@@ -109,8 +110,8 @@ class Stepper {
   std::vector<Point> positions_;  // what positions() hands out; empty before
   std::vector<StepObserver> observers_;
   std::unique_ptr<ChangeTracker> tracker_;  // with observers only
-  double time_ = 0.0;
-  int step_ = 0;
+  double time_;
+  int step_;
 };
 
 }  // namespace kinemesh

@@ -76,13 +76,6 @@ fs::path resolved(const fs::path& path) {
   return target;
 }
 
-// The renaming itself must survive a crash. Some file systems cannot flush directories: no reason to fail.
-void flush_directory(const fs::path& file) {
-  const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const File opened(directory, O_RDONLY | O_DIRECTORY);
-  if (opened.is_open()) ::fsync(opened.descriptor());
-}
-
 // Keeps who may read and write a file that is replaced.
 void copy_permissions(const fs::path& from, const File& to) {
   struct stat old;
@@ -117,7 +110,13 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
   if (file.close() != 0) fail(path, "cannot be written", errno);
   if (::rename(file.path().c_str(), target.c_str()) != 0) fail(path, "cannot be put in place", errno);
   file.keep();
-  flush_directory(target);
+  flush_directory(target.has_parent_path() ? target.parent_path() : fs::path("."));
+}
+
+// Some file systems cannot flush directories: no reason to fail.
+void flush_directory(const fs::path& directory) {
+  const File opened(directory, O_RDONLY | O_DIRECTORY);
+  if (opened.is_open()) ::fsync(opened.descriptor());
 }
 
 std::string read_file(const fs::path& path) {

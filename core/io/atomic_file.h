@@ -13,6 +13,9 @@ namespace kinemesh {
 // InputError naming file and reason; never replaces what is not a regular file.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
+// Makes renamings in the folder survive a crash, where its file system can.
+void flush_directory(const std::filesystem::path& directory);
+
 // The whole file. Throws InputError naming file and reason: missing, a directory or device, unreadable.
 std::string read_file(const std::filesystem::path& path);
 

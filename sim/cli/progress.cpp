@@ -67,7 +67,7 @@ bool Progress::is_due(int step) const {
 void Progress::show(const StepRecord& record, int n_faces) {
   last_shown_ = Clock::now();
   const double elapsed = Seconds(last_shown_ - start_).count();
-  const double left = elapsed / std::max(1, record.step) * (plan_.steps - record.step);
+  const double left = elapsed / std::max(1, record.step - plan_.steps_done) * (plan_.steps - record.step);
   const std::string text = describe(record, plan_, n_faces) + "  ETA " + clock_time(left);
   if (!is_live_) {
     say(text + "\n");

@@ -93,6 +93,13 @@ void print_summary(const RunSummary& summary, const RemeshProbe& probe) {
   for (const auto& file : summary.files) fmt::print("  {}\n", file.string());
 }
 
+// The resolved scenario holds what --set and --split-quads changed.
+std::string how_to_go_on(const RunSummary& summary) {
+  if (!summary.can_resume) return "";
+  const std::string folder = summary.plan.directory.string();
+  return fmt::format("; to go on: kinemesh run '{0}/scenario.toml' -o '{0}' --resume", folder);
+}
+
 int run_scenario(const RunArguments& arguments) {
   Scenario scenario = load_scenario(arguments.scenario, arguments.overrides);
   scenario.mesh.split_quads |= arguments.split_quads;
@@ -100,6 +107,10 @@ int run_scenario(const RunArguments& arguments) {
   options.directory = arguments.directory;
   Progress progress(arguments.verbosity());
   const RunSummary summary = run(scenario, options, progress);
+  if (summary.was_finished) {
+    if (!arguments.quiet) fmt::print("the run is finished, nothing to do\n");
+    return done;
+  }
   if (options.dry_run) {
     print_plan(scenario, summary.plan);
     return done;
@@ -107,7 +118,7 @@ int run_scenario(const RunArguments& arguments) {
   if (!arguments.quiet) print_summary(summary, progress.probe());
   if (!summary.stopped) return done;
   std::fflush(stdout);
-  print_error(fmt::format("{}: {}", arguments.scenario, *summary.stopped));
+  print_error(fmt::format("{}: {}{}", arguments.scenario, *summary.stopped, how_to_go_on(summary)));
   return not_valid;
 }
 
@@ -128,14 +139,16 @@ void add_run(CLI::App& program, Action& action, const std::vector<std::string>& 
   command.add_flag("--split-quads", arguments->split_quads,
                    "Cut the mesh's quadrilaterals in two instead of refusing them");
   command.add_flag("--dry-run", options.dry_run, "Say what would be done, and write nothing");
-  command.add_flag("--force", options.force, "Replace the run that is in the folder");
+  CLI::Option* force = command.add_flag("--force", options.force, "Replace the run that is in the folder");
+  command.add_flag("--resume", options.resume, "Go on with the run that is in the folder")->excludes(force);
   CLI::Option* quiet = command.add_flag("-q,--quiet", arguments->quiet, "Say nothing but errors");
   command.add_flag("-v,--verbose", arguments->verbose, "Say more")->excludes(quiet);
   command.add_option("--threads", options.threads, "Threads to use; default: all cores")
       ->check(CLI::Range(1, 1024));
   command.footer(
-      "Writes scenario.toml, run.json, steps.csv, regions.csv, mesh_NNNNNN.vtu, mesh.pvd and the last mesh.\n"
-      "Progress goes to stderr, the summary to stdout. Ctrl-C ends the run after the step it is in.");
+      "Writes scenario.toml, run.json, steps.csv, regions.csv, mesh_NNNNNN.vtu, mesh.pvd, the last mesh\n"
+      "and checkpoints. Progress goes to stderr, the summary to stdout. Ctrl-C ends the run after the\n"
+      "step it is in; --resume goes on from the last checkpoint.");
   command.callback([arguments, &action] { action = [arguments] { return run_scenario(*arguments); }; });
 }
 

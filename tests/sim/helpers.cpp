@@ -61,6 +61,8 @@ Snapshot snapshot(const Mesh& mesh) {
   for (int h = 0; h < 2 * mesh.n_edges(); ++h)
     for (const int link : {mesh.next(h), mesh.to(h), mesh.face_of(h), mesh.constraint_of(Mesh::edge_of(h))})
       s.halfedges.push_back(link);
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    for (const int link : {mesh.halfedge_of(f), mesh.user_face(f)}) s.faces.push_back(link);
   for (int v = 0; v < mesh.n_vertices(); ++v) s.outgoing.push_back(mesh.outgoing(v));
   return s;
 }
@@ -115,6 +117,31 @@ Csv read_csv(const std::filesystem::path& file) {
     for (size_t i = 0; i < names.size(); ++i) row[names[i]] = cells[i];
   }
   return csv;
+}
+
+std::string without_times(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string result, line;
+  std::vector<std::string> names;
+  while (std::getline(lines, line)) {
+    const auto cells = split(line);
+    if (names.empty()) names = cells;
+    for (size_t i = 0; i < cells.size(); ++i)
+      if (i >= names.size() || !names[i].ends_with("_ms")) result += cells[i] + ",";
+    result += '\n';
+  }
+  return result;
+}
+
+std::map<std::string, std::string> results_in(const std::filesystem::path& directory) {
+  std::map<std::string, std::string> results;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    const auto name = entry.path().filename().string();
+    if (name != "run.json" && !name.starts_with("checkpoint")) results[name] = content_of(entry.path());
+  }
+  if (const auto steps = results.find("steps.csv"); steps != results.end())
+    steps->second = without_times(steps->second);
+  return results;
 }
 
 }  // namespace kinemesh::test

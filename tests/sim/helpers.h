@@ -25,6 +25,7 @@ struct Snapshot {
   std::vector<Triangle> triangles;
   std::vector<int> labels;
   std::vector<int> halfedges;  // next, to, face and constraint of each
+  std::vector<int> faces;      // half-edge and user's number of each
   std::vector<int> outgoing;   // per vertex
   bool operator==(const Snapshot&) const = default;
 };
@@ -55,5 +56,12 @@ struct Csv {
   double number(size_t row, const std::string& column) const { return std::stod(rows.at(row).at(column)); }
 };
 Csv read_csv(const std::filesystem::path& file);
+
+// A CSV text without the columns whose names end in _ms.
+std::string without_times(const std::string& csv);
+
+// Name and content of all that a run writes and that has to be the same however often it was interrupted: all
+// files but run.json and checkpoints, times left out of steps.csv.
+std::map<std::string, std::string> results_in(const std::filesystem::path& directory);
 
 }  // namespace kinemesh::test

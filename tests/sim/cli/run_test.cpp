@@ -249,6 +249,13 @@ TEST_F(Run, InterruptEndsTheRunAfterAStep) {
   EXPECT_GE(rows, 4u);
   EXPECT_LT(rows, 1000000u);
   expect_complete("long", static_cast<int>(rows));
+  // The command it says goes on with that very run, and only with that.
+  EXPECT_TRUE(has(result.err, "; to go on: kinemesh run 'long/scenario.toml' -o 'long' --resume\n"))
+      << result.err;
+  EXPECT_EQ(run({"run", "long/scenario.toml", "-o", "long", "--resume", "--dry-run"}).code, 0);
+  expect_error(run({"run", "long/scenario.toml", "-o", "long", "--resume", "--set", "motion.0.seed=8"}), 2,
+               {"long/scenario.toml: ", "another scenario", "seed = 7 there, seed = 8 here"});
+  expect_error(run({"run", "long.toml", "-q"}), 2, {"--resume", "--force"});
 }
 
 }  // namespace

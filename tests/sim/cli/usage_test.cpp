@@ -69,7 +69,7 @@ TEST_F(Usage, MistakesAreBadInput) {
   expect_error(run({"run", "a.toml", "-q", "-v"}), 2, {"run: "});
   expect_error(run({"run", "a.toml", "--threads", "0"}), 2, {"--threads"});
   expect_error(run({"run", "a.toml", "--threads", "many"}), 2, {"--threads"});
-  expect_error(run({"run", "a.toml", "--resume"}), 2, {"--resume"});
+  expect_error(run({"run", "a.toml", "--resume", "--force"}), 2, {"--resume"});
   EXPECT_EQ(files(), std::vector<std::string>{"a.off"});
 }
 
