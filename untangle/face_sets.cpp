@@ -5,16 +5,17 @@
 namespace kinemesh {
 
 void FaceSets::reset(int n_faces) {
-  for (const auto& faces : faces_) {
-    for (const int f : faces) set_of_[f] = none;
+  for (int set = 0; set < count_; ++set) {
+    for (const int f : faces_[set]) set_of_[f] = none;
+    faces_[set].clear();
   }
-  faces_.clear();
+  count_ = 0;
   if (static_cast<int>(set_of_.size()) < n_faces) set_of_.resize(n_faces, none);
 }
 
 int FaceSets::open() {
-  faces_.emplace_back();
-  return count() - 1;
+  if (count_ == static_cast<int>(faces_.size())) faces_.emplace_back();
+  return count_++;
 }
 
 void FaceSets::add(int face, int set) {

@@ -12,7 +12,7 @@ class FaceSets {
   // Empties all sets; the next faces are below n_faces. O(what was in the sets), after the first time.
   void reset(int n_faces);
 
-  int count() const { return static_cast<int>(faces_.size()); }
+  int count() const { return count_; }
   int open();  // a new empty set; returns its number
 
   int set_of(int face) const { return set_of_[face]; }  // or none
@@ -23,8 +23,9 @@ class FaceSets {
   void sort(int set);                // its faces, ascending
 
  private:
-  std::vector<int> set_of_;  // per face
-  std::vector<std::vector<int>> faces_;
+  std::vector<int> set_of_;              // per face
+  std::vector<std::vector<int>> faces_;  // of the first count_ sets; memory of earlier ones behind them
+  int count_ = 0;
 };
 
 }  // namespace kinemesh

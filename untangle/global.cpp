@@ -1,7 +1,6 @@
 #include "untangle/global.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "core/stopwatch.h"
 #include "untangle/records.h"
@@ -13,6 +12,9 @@ namespace {
 bool seeded_before(const RegionRecord& a, const RegionRecord& b) {
   return std::pair(a.seed == none, a.seed) < std::pair(b.seed == none, b.seed);
 }
+
+// So many stay in the cache from their walk to their patch.
+constexpr int faces_at_hand = 4096;
 
 }  // namespace
 
@@ -29,45 +31,40 @@ RepairOutcome GlobalUntangling::repair(Mesh& mesh, const RepairOptions& options)
     return outcome;
   }
 
-  const Stopwatch exploring;
-  walk_.run(mesh, tangles, repair_.regions());
-  record.explore_ms = exploring.milliseconds();
-
-  const Stopwatch triangulating;
-  outcome.defect = remesh(mesh, options);
-  record.triangulate_ms = triangulating.milliseconds();
+  walk_.start(mesh, tangles, repair_.regions());
+  repair_.start();
+  for (bool more = true; more && !outcome.defect;) {
+    const Stopwatch exploring;
+    more = walk_.advance(faces_at_hand);
+    record.explore_ms += exploring.milliseconds();
+    const Stopwatch triangulating;
+    outcome.defect = repair_.remesh_new(mesh, options);
+    record.triangulate_ms += triangulating.milliseconds();
+  }
+  const Stopwatch retrying;
+  if (!outcome.defect) outcome.defect = repair_.remesh_touching(mesh, options);
+  record.triangulate_ms += retrying.milliseconds();
   if (outcome.defect) return outcome;
 
   const Stopwatch splicing;
-  describe(mesh, tangles, record);
-  for (int region = 0; region < repair_.regions().count(); ++region) mesh.splice(repair_.patch(region).patch);
+  splice(mesh, record);
   record.splice_ms = splicing.milliseconds();
   record.escaped = count_escaped(mesh, options);
   return outcome;
 }
 
-// Before any is spliced, so that a failure has nothing to undo.
-std::optional<Defect> GlobalUntangling::remesh(const Mesh& mesh, const RepairOptions& options) {
-  repair_.start();
+// Not before all regions have been re-meshed, so that a failure has nothing to undo.
+void GlobalUntangling::splice(Mesh& mesh, RepairRecord& record) {
+  record.regions.reserve(repair_.regions().count());
   for (int region = 0; region < repair_.regions().count(); ++region) {
-    if (auto defect = repair_.remesh(mesh, options, region)) return defect;
-  }
-  return std::nullopt;
-}
-
-void GlobalUntangling::describe(const Mesh& mesh, const Tangles& tangles, RepairRecord& record) const {
-  const auto components = inverted_components(mesh, tangles.inverted);
-  record.components = components.count;
-  for (int region = 0; region < repair_.regions().count(); ++region) {
-    if (repair_.regions().faces(region).empty()) continue;  // absorbed
-    const auto& patch = repair_.patch(region);
-    auto line = describe_region(mesh, repair_.regions(), region, tangles, components);
-    line.kept = patch.kept;
-    line.retries = patch.retries;
-    record.replaced += static_cast<int>(patch.patch.faces.size());
-    record.regions.push_back(std::move(line));
+    auto& work = repair_.patch(region);
+    if (work.record.faces.empty()) continue;  // absorbed
+    record.components += work.record.components;
+    record.replaced += static_cast<int>(work.patch.faces.size());
+    record.regions.push_back(std::move(work.record));
   }
   std::sort(record.regions.begin(), record.regions.end(), seeded_before);
+  for (int region = 0; region < repair_.regions().count(); ++region) mesh.splice(repair_.patch(region).patch);
 }
 
 }  // namespace kinemesh

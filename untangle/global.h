@@ -8,7 +8,7 @@
 
 namespace kinemesh {
 
-// Detect, walk, re-mesh each region, and only then splice: whatever fails leaves the mesh as it was. Faces
+// Detect, walk, re-mesh the regions in all threads, and only then splice: whatever fails leaves the mesh as it was. Faces
 // outside the regions R* = phi(I)* stay; a valid mesh exists and is found unless constrained edges touch,
 // vertices coincide, or a vertex has left the padded mesh [Agarwal 2008, §5 and Lemma 3.3].
 class GlobalUntangling : public Strategy {
@@ -17,8 +17,7 @@ class GlobalUntangling : public Strategy {
   [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
 
  private:
-  std::optional<Defect> remesh(const Mesh& mesh, const RepairOptions& options);
-  void describe(const Mesh& mesh, const Tangles& tangles, RepairRecord& record) const;
+  void splice(Mesh& mesh, RepairRecord& record);
 
   GlobalWalk walk_;
   RegionRepair repair_;

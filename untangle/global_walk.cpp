@@ -1,13 +1,29 @@
 #include "untangle/global_walk.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <limits>
 
 #include "core/predicates.h"
 
 namespace kinemesh {
+namespace {
+
+constexpr std::size_t seeds_ahead = 16;
+
+void fetch(const Mesh& mesh, int halfedge) {
+  __builtin_prefetch(&mesh.connectivity().halfedge(OpenMesh::HalfedgeHandle(halfedge)));
+}
+
+}  // namespace
 
 void GlobalWalk::run(const Mesh& mesh, const Tangles& tangles, FaceSets& regions) {
+  start(mesh, tangles, regions);
+  advance(std::numeric_limits<int>::max());
+}
+
+void GlobalWalk::start(const Mesh& mesh, const Tangles& tangles, FaceSets& regions) {
   mesh_ = &mesh;
   regions_ = &regions;
   for (const int face : tangled_) is_tangled_[face] = false;
@@ -17,19 +33,50 @@ void GlobalWalk::run(const Mesh& mesh, const Tangles& tangles, FaceSets& regions
              std::back_inserter(tangled_));
   for (const int face : tangled_) is_tangled_[face] = true;
   shadows_.build(mesh, tangled_);
-
   regions.reset(mesh.n_faces());
-  pending_.clear();
-  for (const int seed : tangled_) {
-    if (regions.set_of(seed) != none) continue;
-    region_ = regions.open();
-    visit(seed);
-    while (!pending_.empty()) {
-      const int face = pending_.back();
-      pending_.pop_back();
-      leave(face);
+  next_seed_ = 0;
+}
+
+bool GlobalWalk::advance(int n_faces) {
+  int n_found = 0;
+  for (; next_seed_ < tangled_.size() && n_found < n_faces; ++next_seed_) {
+    if (next_seed_ % seeds_ahead == 0) {
+      const std::span all(tangled_);
+      fetch_around(all.subspan(next_seed_, std::min(seeds_ahead, all.size() - next_seed_)));
     }
-    regions.sort(region_);
+    if (regions_->set_of(tangled_[next_seed_]) != none) continue;
+    walk_from(tangled_[next_seed_]);
+    n_found += static_cast<int>(regions_->faces(region_).size());
+  }
+  return next_seed_ < tangled_.size();
+}
+
+void GlobalWalk::walk_from(int seed) {
+  region_ = regions_->open();
+  pending_.clear();
+  visit(seed);
+  while (!pending_.empty()) {
+    const int face = pending_.back();
+    pending_.pop_back();
+    leave(face);
+  }
+  regions_->sort(region_);
+}
+
+// A walk waits for memory at each step, since the next face is known only once the last has come. So what
+// lies around some seeds is asked for side by side beforehand.
+void GlobalWalk::fetch_around(std::span<const int> seeds) const {
+  std::array<Triangle, seeds_ahead> sides, neighbours;
+  for (std::size_t i = 0; i < seeds.size(); ++i) sides[i] = mesh_->sides(seeds[i]);
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    for (int k = 0; k < 3; ++k) neighbours[i][k] = mesh_->face_of(Mesh::opposite(sides[i][k]));
+  }
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    for (const int face : neighbours[i]) {
+      if (face == none) continue;
+      for (const int v : mesh_->triangles()[face]) __builtin_prefetch(&mesh_->position(v));
+      for (const int side : mesh_->sides(face)) fetch(*mesh_, side);
+    }
   }
 }
 

@@ -1,6 +1,9 @@
 // Which faces a global repair has to replace: the preimage phi(I) of everything an inverted face covers.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "core/mesh.h"
 #include "untangle/detect.h"
 #include "untangle/face_sets.h"
@@ -23,16 +26,25 @@ class GlobalWalk {
   // scratch memory for the next.
   void run(const Mesh& mesh, const Tangles& tangles, FaceSets& regions);
 
+  // The same in parts, so that regions can be re-meshed while their faces are at hand: each `advance` adds
+  // whole regions until they hold at least n_faces more, and is false once there are none left. Mesh and
+  // regions stay where they are in between.
+  void start(const Mesh& mesh, const Tangles& tangles, FaceSets& regions);
+  bool advance(int n_faces);
+
  private:
+  void walk_from(int seed);
   void visit(int face);
   void leave(int face);
   bool is_conflicting(int side) const;
+  void fetch_around(std::span<const int> seeds) const;
 
   const Mesh* mesh_ = nullptr;
   FaceSets* regions_ = nullptr;
   int region_ = none;             // the one that is being walked
   std::vector<int> tangled_;      // F, ascending
-  std::vector<bool> is_tangled_;  // per face; all false between runs
+  std::size_t next_seed_ = 0;     // in tangled_
+  std::vector<bool> is_tangled_;  // per face; all false between walks but for those in tangled_
   ShadowIndex shadows_;           // of F
   std::vector<int> pending_;
 };

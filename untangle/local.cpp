@@ -24,16 +24,6 @@ bool is_upright(const Mesh& mesh, int face) {
   return turn(mesh, face) == Orientation::CounterClockwise;
 }
 
-// What is tangled among some faces, ascending.
-Tangles tangles_among(const Mesh& mesh, const std::vector<int>& faces) {
-  Tangles tangles;
-  for (const int face : faces) {
-    if (turn(mesh, face) == Orientation::Clockwise) tangles.inverted.push_back(face);
-    if (turn(mesh, face) == Orientation::Collinear) tangles.flat.push_back(face);
-  }
-  return tangles;
-}
-
 // Takes splices back, the last one first, unless told that they stay.
 class Undo {
  public:
@@ -142,10 +132,9 @@ std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mes
   sets_.reset(mesh.n_faces());
   const int set = sets_.open();
   for (const int face : exploration.faces()) sets_.add(face, set);
-  const auto tangles = tangles_among(mesh, sets_.faces(set));
 
   Region region;
-  region.record = describe_region(mesh, sets_, set, tangles, inverted_components(mesh, tangles.inverted));
+  region.record = describe_region(mesh, sets_, set);
   region.record.seed = mesh.user_face(seed);
   region.record.explored = exploration.explored();
   region.record.gamma_first_stable = exploration.gamma_first_stable();
@@ -189,9 +178,7 @@ bool LocalUntangling::remesh_rest(const Mesh& mesh, const RepairOptions& options
 void LocalUntangling::finish_region(const Mesh& mesh, const FaceSets& sets, const RepairOptions& options,
                                     NewFaces faces, Region& region) {
   region.doubled_edges = avoid_doubled_edges(mesh, sets, 0, faces);
-  auto finished = finish(mesh, sets, 0, std::move(faces), options.allow_escaped);
-  region.patch = std::move(finished.patch);
-  region.defect = std::move(finished.defect);
+  region.defect = finisher_.run(mesh, sets, 0, faces, options.allow_escaped, region.patch);
 }
 
 // One walk serves all seeds: each region that is replaced lies in one piece, whose border stays.
@@ -211,14 +198,11 @@ LocalUntangling::Region LocalUntangling::piece_of_global_walk(const Mesh& mesh, 
   Region region;
   region.defect = pieces_.remesh(mesh, options, piece);
   if (!region.defect) {
-    const auto tangles = tangles_among(mesh, pieces_.regions().faces(piece));
-    region.record =
-        describe_region(mesh, pieces_.regions(), piece, tangles, inverted_components(mesh, tangles.inverted));
+    auto& work = pieces_.patch(piece);
+    region.record = std::move(work.record);
     region.record.seed = mesh.user_face(seed);
     region.record.fallback = true;
-    region.patch = pieces_.patch(piece).patch;
-    region.record.kept = pieces_.patch(piece).kept;
-    region.record.retries = pieces_.patch(piece).retries;
+    region.patch = std::move(work.patch);
   }
   times.triangulate_ms += triangulating.milliseconds();
   return region;

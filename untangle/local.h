@@ -49,6 +49,7 @@ class LocalUntangling : public Strategy {
 
   FaceSets sets_;  // the region at hand
   RegionMesher mesher_;
+  Finisher finisher_;
   Retention retention_;
   RegionRepair pieces_;  // of the global walk of this repair, once one was needed
   bool has_walked_ = false;

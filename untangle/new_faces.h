@@ -1,6 +1,7 @@
 // The faces that are to take a region's place, between their triangulation and the splice.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,18 +24,28 @@ struct NewFaces {
   void add(const Triangle& corners, const Triangle& neighbours_of, const Triangle& constraints_of);
 };
 
-struct Finished {
-  Patch patch;
-  std::optional<Defect> defect;  // then there is no patch
-};
+// Makes the patch. Keeps scratch memory for the next.
+class Finisher {
+ public:
+  Finisher();
+  ~Finisher();
+  Finisher(Finisher&&) noexcept;
+  Finisher& operator=(Finisher&&) noexcept;
 
-// Decides what the triangulation leaves open. Labels spread from the faces inside the region's border over
-// the new ones and change at constraints only; where two of them meet the defect names the edges they came
-// from. A vertex on no constrained edge that came to lie in another label than its home has escaped, a defect
-// unless it is allowed. A new face takes the place of one with its label, so that the user's numbers stay
-// where they are; only when vertices have escaped do slots change their label. The patch does not depend on
-// the order of the new faces. Checks the certificate: as many faces as were in the set, as many edges, each
-// face upright. Throws std::logic_error otherwise, which is a bug of ours.
-Finished finish(const Mesh& mesh, const FaceSets& sets, int set, NewFaces faces, bool allow_escaped);
+  // Decides what the triangulation leaves open. Labels spread from the faces inside the region's border over
+  // the new ones and change at constraints only; where two of them meet the defect names the edges they came
+  // from. A vertex on no constrained edge that came to lie in another label than its home has escaped, a
+  // defect unless it is allowed. A new face takes the place of one with its label, so that the user's numbers
+  // stay where they are; only when vertices have escaped do slots change their label. The patch does not
+  // depend on the order of the new faces. Checks the certificate: as many faces as were in the set, as many
+  // edges, each face upright. Throws std::logic_error otherwise, which is a bug of ours. Without a defect
+  // `patch` is overwritten.
+  [[nodiscard]] std::optional<Defect> run(const Mesh& mesh, const FaceSets& sets, int set, NewFaces& faces,
+                                          bool allow_escaped, Patch& patch);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
 
 }  // namespace kinemesh

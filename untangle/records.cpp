@@ -4,6 +4,9 @@
 #include <glm/common.hpp>
 #include <numeric>
 
+#include "core/predicates.h"
+#include "untangle/detect.h"
+
 namespace kinemesh {
 namespace {
 
@@ -11,19 +14,39 @@ bool contains(const std::vector<int>& sorted, int value) {
   return std::binary_search(sorted.begin(), sorted.end(), value);
 }
 
-int count_distinct(std::vector<int> values) {
-  std::sort(values.begin(), values.end());
-  return static_cast<int>(std::unique(values.begin(), values.end()) - values.begin());
+Tangles tangles_among(const Mesh& mesh, const std::vector<int>& faces) {
+  Tangles tangles;
+  for (const int face : faces) {
+    const auto [a, b, c] = mesh.corners(face);
+    const auto turn = orientation(a, b, c);
+    if (turn == Orientation::Clockwise) tangles.inverted.push_back(face);
+    if (turn == Orientation::Collinear) tangles.flat.push_back(face);
+  }
+  return tangles;
 }
 
-// Between an inverted face and an upright one, seen from the inverted one.
-int count_crease_edges(const Mesh& mesh, int inverted_face, const Tangles& tangles) {
+// Between inverted faces and upright ones.
+int count_crease_edges(const Mesh& mesh, const Tangles& tangles) {
   int count = 0;
-  for (const int side : mesh.sides(inverted_face)) {
-    const int across = mesh.face_of(Mesh::opposite(side));
-    count += across != none && !contains(tangles.inverted, across) && !contains(tangles.flat, across);
+  for (const int face : tangles.inverted) {
+    for (const int side : mesh.sides(face)) {
+      const int across = mesh.face_of(Mesh::opposite(side));
+      count += across != none && !contains(tangles.inverted, across) && !contains(tangles.flat, across);
+    }
   }
   return count;
+}
+
+// The smallest of the user's numbers, or none.
+int seed_of(const Mesh& mesh, const Tangles& tangles) {
+  int seed = none;
+  for (const auto* faces : {&tangles.inverted, &tangles.flat}) {
+    for (const int face : *faces) {
+      const int user = mesh.user_face(face);
+      if (user != none && (seed == none || user < seed)) seed = user;
+    }
+  }
+  return seed;
 }
 
 int count_border_edges(const Mesh& mesh, const FaceSets& sets, int set) {
@@ -55,30 +78,22 @@ int total(const std::vector<RegionRecord>& regions, const Member& member) {
 
 }  // namespace
 
-RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set, const Tangles& tangles,
-                             const Components& components) {
-  const auto& faces = sets.faces(set);
+RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set) {
   RegionRecord record;
-  record.faces = faces;
+  record.faces = sets.faces(set);
+  const auto tangles = tangles_among(mesh, record.faces);
+  record.seed = seed_of(mesh, tangles);
+  record.inverted = static_cast<int>(tangles.inverted.size());
+  record.degenerate = static_cast<int>(tangles.flat.size());
+  record.components = inverted_components(mesh, tangles.inverted).count;
+  record.explored = static_cast<int>(record.faces.size());
   record.border_edges = count_border_edges(mesh, sets, set);
-  record.centre = centre_of(mesh, faces);
-  record.explored = static_cast<int>(faces.size());
-  std::vector<int> numbers;
-  for (const int face : faces) {
-    const int user = mesh.user_face(face);
-    if (user != none) record.user_faces.push_back(user);
-    const auto found = std::lower_bound(tangles.inverted.begin(), tangles.inverted.end(), face);
-    const bool inverted = found != tangles.inverted.end() && *found == face;
-    const bool flat = !inverted && contains(tangles.flat, face);
-    if (inverted) {
-      numbers.push_back(components.of[found - tangles.inverted.begin()]);
-      record.crease_edges += count_crease_edges(mesh, face, tangles);
-    }
-    record.inverted += inverted;
-    record.degenerate += flat;
-    if ((inverted || flat) && user != none && (record.seed == none || user < record.seed)) record.seed = user;
+  record.crease_edges = count_crease_edges(mesh, tangles);
+  record.centre = centre_of(mesh, record.faces);
+  record.user_faces.reserve(record.faces.size());
+  for (const int face : record.faces) {
+    if (!mesh.is_padding(face)) record.user_faces.push_back(mesh.user_face(face));
   }
-  record.components = count_distinct(std::move(numbers));
   std::sort(record.user_faces.begin(), record.user_faces.end());
   return record;
 }

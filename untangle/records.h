@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/mesh.h"
-#include "untangle/detect.h"
 #include "untangle/face_sets.h"
 #include "untangle/strategy.h"
 
@@ -11,8 +10,7 @@ namespace kinemesh {
 // Fills what follows from the faces alone (faces, user_faces, seed, inverted, degenerate, components,
 // crease_edges, explored, border_edges, centre). To be called before anything is spliced. Pre: the set's
 // faces ascend.
-RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set, const Tangles& tangles,
-                             const Components& components);
+RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set);
 
 // Vertices on no constrained edge that lie in another label than their home. None unless that is allowed.
 int count_escaped(const Mesh& mesh, const RepairOptions& options);

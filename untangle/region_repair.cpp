@@ -1,8 +1,12 @@
 #include "untangle/region_repair.h"
 
+#include <tbb/parallel_for.h>
+
 #include <stdexcept>
+#include <utility>
 
 #include "untangle/new_faces.h"
+#include "untangle/records.h"
 
 namespace kinemesh {
 namespace {
@@ -10,40 +14,94 @@ namespace {
 // After so many rings of neighbours the whole mesh is taken.
 constexpr int max_rings = 4;
 
+void clear(RegionPatch& work) {
+  work.patch.faces.clear();
+  work.patch.triangles.clear();
+  work.patch.labels.clear();
+  work.patch.halfedges.clear();
+  work.patch.edges.clear();
+  work.patch.constraints.clear();
+  work.patch.outgoing.clear();
+  work.record = {};
+}
+
 }  // namespace
 
-std::optional<Defect> RegionRepair::remesh(const Mesh& mesh, const RepairOptions& options, int region) {
-  if (regions_.faces(region).empty()) return std::nullopt;  // absorbed
-  if (options.retain && remesh_rest(mesh, options, region)) return std::nullopt;
-  auto& work = patches_[region];
-  auto result = mesher_.run(mesh, regions_, region);
-  while (result == RegionMesher::Result::NotSimple) {
-    if (static_cast<int>(regions_.faces(region).size()) == mesh.n_faces())
-      throw std::logic_error("the border of the padded mesh is not convex");
-    ++work.retries;
-    enlarge(mesh, region);
-    result = mesher_.run(mesh, regions_, region);
+void RegionRepair::start() {
+  n_prepared_ = 0;
+  touching_.clear();
+}
+
+void RegionRepair::prepare_new() {
+  if (regions_.count() > static_cast<int>(patches_.size())) patches_.resize(regions_.count());
+  for (; n_prepared_ < regions_.count(); ++n_prepared_) clear(patches_[n_prepared_]);
+}
+
+std::optional<Defect> RegionRepair::remesh_new(const Mesh& mesh, const RepairOptions& options) {
+  const int first = n_prepared_;
+  prepare_new();
+  attempts_.assign(n_prepared_ - first, {});
+  tbb::parallel_for(first, n_prepared_,
+                    [&](int region) { attempts_[region - first] = attempt(mesh, options, region); });
+  for (int region = first; region < n_prepared_; ++region) {
+    auto& result = attempts_[region - first];
+    if (result.defect) return std::move(result.defect);
+    if (!result.is_simple) touching_.push_back(region);
   }
-  if (result == RegionMesher::Result::NoMesh) return mesher_.defect();
-  auto finished = finish(mesh, regions_, region, std::move(mesher_.new_faces()), options.allow_escaped);
-  if (finished.defect) return finished.defect;
-  work.patch = std::move(finished.patch);
   return std::nullopt;
 }
 
+std::optional<Defect> RegionRepair::remesh_touching(const Mesh& mesh, const RepairOptions& options) {
+  for (const int region : touching_) {
+    if (auto defect = remesh(mesh, options, region)) return defect;
+  }
+  return std::nullopt;
+}
+
+std::optional<Defect> RegionRepair::remesh(const Mesh& mesh, const RepairOptions& options, int region) {
+  prepare_new();
+  if (regions_.faces(region).empty()) return std::nullopt;  // absorbed
+  auto result = attempt(mesh, options, region);
+  while (!result.is_simple) {
+    if (static_cast<int>(regions_.faces(region).size()) == mesh.n_faces())
+      throw std::logic_error("the border of the padded mesh is not convex");
+    ++patches_[region].record.retries;
+    enlarge(mesh, region);
+    result = attempt(mesh, options, region);
+  }
+  return std::move(result.defect);
+}
+
+// Reads the region and its mesh only, and writes its patch only.
+RegionRepair::Attempt RegionRepair::attempt(const Mesh& mesh, const RepairOptions& options, int region) {
+  auto& worker = workers_.local();
+  auto& work = patches_[region];
+  const int retries = work.record.retries;
+  work.record = describe_region(mesh, regions_, region);
+  work.record.retries = retries;
+  if (options.retain && remesh_rest(worker, mesh, options, region)) return {};
+  const auto result = worker.mesher.run(mesh, regions_, region);
+  if (result == RegionMesher::Result::NotSimple) return {.is_simple = false, .defect = {}};
+  if (result == RegionMesher::Result::NoMesh) return {.is_simple = true, .defect = worker.mesher.defect()};
+  return {.is_simple = true,
+          .defect = worker.finisher.run(mesh, regions_, region, worker.mesher.new_faces(),
+                                        options.allow_escaped, work.patch)};
+}
+
 // False where not all goes well: then there is more to replace, or a reason that the whole region tells.
-bool RegionRepair::remesh_rest(const Mesh& mesh, const RepairOptions& options, int region) {
-  if (!retention_.run(mesh, regions_, region)) return false;
-  if (mesher_.run(mesh, retention_.rest(), 0) != RegionMesher::Result::Done) return false;
-  auto finished = finish(mesh, retention_.rest(), 0, std::move(mesher_.new_faces()), options.allow_escaped);
-  if (finished.defect) return false;
-  patches_[region].patch = std::move(finished.patch);
-  patches_[region].kept = retention_.kept();
+bool RegionRepair::remesh_rest(Worker& worker, const Mesh& mesh, const RepairOptions& options, int region) {
+  const auto& retention = worker.retention;
+  if (!worker.retention.run(mesh, regions_, region)) return false;
+  if (worker.mesher.run(mesh, retention.rest(), 0) != RegionMesher::Result::Done) return false;
+  if (worker.finisher.run(mesh, retention.rest(), 0, worker.mesher.new_faces(), options.allow_escaped,
+                          patches_[region].patch))
+    return false;
+  patches_[region].record.kept = retention.kept();
   return true;
 }
 
 void RegionRepair::enlarge(const Mesh& mesh, int region) {
-  if (patches_[region].retries > max_rings) {
+  if (patches_[region].record.retries > max_rings) {
     for (int face = 0; face < mesh.n_faces(); ++face) take(face, region);
   } else {
     const auto faces = regions_.faces(region);  // a copy: the set grows
@@ -65,8 +123,8 @@ void RegionRepair::take(int face, int region) {
     return;
   }
   regions_.absorb(region, other);
-  patches_[region].retries += patches_[other].retries;
-  patches_[other] = {};
+  patches_[region].record.retries += patches_[other].record.retries;
+  clear(patches_[other]);
 }
 
 }  // namespace kinemesh

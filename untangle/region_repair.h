@@ -2,6 +2,8 @@
 // something.
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <optional>
 #include <vector>
 
@@ -16,9 +18,8 @@ namespace kinemesh {
 
 // A region on its way to the splice.
 struct RegionPatch {
-  Patch patch;            // empty where the region was absorbed by another
-  std::vector<int> kept;  // faces of the region that stay
-  int retries = 0;        // enlargements
+  Patch patch;          // empty where the region was absorbed by another
+  RegionRecord record;  // of the region as it is replaced; without faces then
 };
 
 // The regions of a global walk, re-meshed one by one. Changes no mesh.
@@ -27,25 +28,49 @@ class RegionRepair {
   FaceSets& regions() { return regions_; }
   const FaceSets& regions() const { return regions_; }
 
-  // To be called once the regions are complete.
-  void start() { patches_.assign(regions_.count(), {}); }
+  // To be called before the first region is re-meshed.
+  void start();
+
+  // Re-meshes all regions that have been added since the last call, in all threads, those whose border is not
+  // simple apart: they wait for remesh_touching. Returns why there is no mesh, for the first region that has
+  // none.
+  [[nodiscard]] std::optional<Defect> remesh_new(const Mesh& mesh, const RepairOptions& options);
+
+  // To be called once all regions are there.
+  [[nodiscard]] std::optional<Defect> remesh_touching(const Mesh& mesh, const RepairOptions& options);
 
   // Re-meshes one region. While its border is not simple, it is enlarged by the faces across its border and
-  // the regions they belong to, in the end by all faces: a retry, which is counted. Returns why there is no
-  // mesh, if there is none.
+  // the regions they belong to, in the end by all faces: a retry, which is counted. Pre: all regions are
+  // there.
   [[nodiscard]] std::optional<Defect> remesh(const Mesh& mesh, const RepairOptions& options, int region);
 
-  const RegionPatch& patch(int region) const { return patches_[region]; }
+  // Of a region that has been re-meshed.
+  RegionPatch& patch(int region) { return patches_[region]; }
 
  private:
-  bool remesh_rest(const Mesh& mesh, const RepairOptions& options, int region);
+  // What a thread works with.
+  struct Worker {
+    RegionMesher mesher;
+    Finisher finisher;
+    Retention retention;
+  };
+  struct Attempt {
+    bool is_simple = true;
+    std::optional<Defect> defect;
+  };
+
+  void prepare_new();
+  Attempt attempt(const Mesh& mesh, const RepairOptions& options, int region);
+  bool remesh_rest(Worker& worker, const Mesh& mesh, const RepairOptions& options, int region);
   void enlarge(const Mesh& mesh, int region);
   void take(int face, int region);
 
   FaceSets regions_;
-  RegionMesher mesher_;
-  Retention retention_;
-  std::vector<RegionPatch> patches_;  // per region
+  tbb::enumerable_thread_specific<Worker> workers_;
+  std::vector<RegionPatch> patches_;  // of the first n_prepared_ regions; memory of earlier repairs behind
+  int n_prepared_ = 0;
+  std::vector<Attempt> attempts_;  // of the regions last added
+  std::vector<int> touching_;      // regions whose border was not simple, ascending
 };
 
 }  // namespace kinemesh

@@ -33,16 +33,13 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   // The border of the whole is convex, so only a vertex outside could make it fail, and that is NoMesh.
   if (result == RegionMesher::Result::NotSimple)
     throw std::logic_error("the whole mesh has no simple border");
-  auto finished = finish(mesh, everything_, all, std::move(mesher_.new_faces()), options.allow_escaped);
-  if (finished.defect) {
-    outcome.defect = std::move(finished.defect);
-    return outcome;
-  }
+  Patch patch;
+  outcome.defect = finisher_.run(mesh, everything_, all, mesher_.new_faces(), options.allow_escaped, patch);
+  if (outcome.defect) return outcome;
 
-  auto line = describe_region(mesh, everything_, all, tangles, components);
   record.replaced = mesh.n_faces();
-  record.regions.push_back(std::move(line));
-  mesh.splice(finished.patch);
+  record.regions.push_back(describe_region(mesh, everything_, all));
+  mesh.splice(patch);
   record.escaped = count_escaped(mesh, options);
   record.splice_ms = working.milliseconds() - record.triangulate_ms;
   return outcome;

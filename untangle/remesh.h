@@ -17,6 +17,7 @@ class FullRemesh : public Strategy {
  private:
   FaceSets everything_;
   RegionMesher mesher_;
+  Finisher finisher_;
 };
 
 }  // namespace kinemesh

@@ -25,6 +25,11 @@ thread_local long allocations_left = 0;  // if limited
   throw std::bad_alloc();
 }
 
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  if (is_limited && allocations_left-- <= 0) return nullptr;
+  return std::malloc(size > 0 ? size : 1);
+}
+
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);
 }
