@@ -22,6 +22,7 @@ tests=(
   libbenchmark-dev
   libgmock-dev libgtest-dev
   librapidcheck-dev # properties over random cases
+  libsuitesparse-dev # CHOLMOD, for the heat example
   python3-meshio    # reads what we write
   clang libclang-rt-14-dev  # libFuzzer
 )
