@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <OpenMesh/Core/System/omstream.hh>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -22,6 +23,11 @@ void occupy_standard_files() {
     if (fcntl(number, F_GETFD) == -1)
       (void)open("/dev/null", O_RDONLY);  // takes the lowest number that is free
   }
+}
+
+// A file that exceeds its limit is an error like a full disk, no reason to be killed.
+void take_file_limits_as_errors() {
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void silence_openmesh() {
@@ -104,6 +110,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   kinemesh::cli::occupy_standard_files();
+  kinemesh::cli::take_file_limits_as_errors();
   kinemesh::cli::silence_openmesh();
   return kinemesh::cli::run_program(argc, argv);
 }
