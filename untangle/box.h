@@ -26,10 +26,10 @@ inline Box hull_of(const Box& a, const Box& b) {
   return {{std::min(p.x(), q.x()), std::min(p.y(), q.y())}, {std::max(r.x(), s.x()), std::max(r.y(), s.y())}};
 }
 
-// Borders included. All four comparisons, rather than a branch after each.
+// Borders included.
 inline bool meet(const Box& a, const Box& b) {
   const auto &p = a.min_corner(), &q = b.min_corner(), &r = a.max_corner(), &s = b.max_corner();
-  return (p.x() <= s.x()) & (q.x() <= r.x()) & (p.y() <= s.y()) & (q.y() <= r.y());
+  return p.x() <= s.x() && q.x() <= r.x() && p.y() <= s.y() && q.y() <= r.y();
 }
 
 // Pre: the boxes meet.
