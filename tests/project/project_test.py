@@ -87,8 +87,29 @@ class Readme(unittest.TestCase):
 
     def test_links_lead_somewhere(self):
         for document in ("README.md", "CONTRIBUTING.md", *(f"docs/{p.name}" for p in (ROOT / "docs").glob("*.md"))):
-            for target in re.findall(r"\]\((?!https?:)([^)#]+)", read(ROOT / document)):
+            text = re.sub(r"^```.*?^```$", "", read(ROOT / document), flags=re.MULTILINE | re.DOTALL)
+            for target in re.findall(r"\]\((?!https?:)([^)#]+)", text):
                 self.assertTrue(((ROOT / document).parent / target).exists(), f"{document} links to {target}")
+
+
+class Embedding(unittest.TestCase):
+    """Each block of docs/embedding.md is a piece of a program that is built and run, apart from its indentation."""
+
+    PROGRAMS = {"cpp": "examples/solver_loop.cpp", "c": "tests/consumer/project/consumer.c",
+                "cmake": "tests/consumer/project/CMakeLists.txt"}
+
+    def test_blocks_are_pieces_of_programs(self):
+        for language, program in self.PROGRAMS.items():
+            lines = [line.strip() for line in read(ROOT / program).splitlines()]
+            shown = blocks("docs/embedding.md", language)
+            self.assertGreater(len(shown), 0, language)
+            for block in shown:
+                wanted = [line.strip() for line in block.splitlines()]
+                if language == "cmake":  # what stands between is the test's own business
+                    self.assertLessEqual(set(wanted), set(lines), block)
+                else:
+                    starts = range(len(lines) - len(wanted) + 1)
+                    self.assertTrue(any(lines[i:i + len(wanted)] == wanted for i in starts), f"{program}:\n{block}")
 
 
 class Scenarios(unittest.TestCase):
