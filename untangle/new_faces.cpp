@@ -1,6 +1,7 @@
 #include "untangle/new_faces.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
@@ -158,11 +159,15 @@ class PatchBuilder {
   // The edges between two faces of the set.
   void collect_free_edges() {
     patch_->edges.clear();
+    old_constraints_.clear();
     for (const int face : sets_->faces(set_)) {
       for (const int side : mesh_->sides(face)) {
         const int across = mesh_->face_of(Mesh::opposite(side));
         const bool inner = across != none && sets_->set_of(across) == set_;
-        if (inner && side < Mesh::opposite(side)) patch_->edges.push_back(Mesh::edge_of(side));
+        if (!inner || side > Mesh::opposite(side)) continue;
+        const int edge = Mesh::edge_of(side);
+        patch_->edges.push_back(edge);
+        if (mesh_->constraint_of(edge) != none) old_constraints_.push_back(mesh_->constraint_of(edge));
       }
     }
     std::sort(patch_->edges.begin(), patch_->edges.end());
@@ -204,7 +209,19 @@ class PatchBuilder {
     throw std::logic_error("new faces do not agree on their neighbours");
   }
 
-  void certify() const {
+  // Each constrained edge is there again, once.
+  void certify_constraints() {
+    new_constraints_.clear();
+    std::copy_if(patch_->constraints.begin(), patch_->constraints.end(), std::back_inserter(new_constraints_),
+                 [](int constraint) { return constraint != none; });
+    std::sort(old_constraints_.begin(), old_constraints_.end());
+    std::sort(new_constraints_.begin(), new_constraints_.end());
+    if (new_constraints_ != old_constraints_) throw std::logic_error("a region lost a constrained edge");
+  }
+
+  void certify() {
+    certify_constraints();
+
     for (const auto& [a, b, c] : patch_->triangles) {
       const auto turn = orientation(mesh_->position(a), mesh_->position(b), mesh_->position(c));
       if (turn != Orientation::CounterClockwise) throw std::logic_error("a new face is not upright");
@@ -219,9 +236,10 @@ class PatchBuilder {
   std::vector<int> shift_;  // per new face: its smallest corner, which comes first in the patch
   std::vector<int> order_;  // new faces by place in the patch
   std::vector<int> place_;  // and back
-  std::vector<std::pair<int, Triangle>> keys_;  // per new face: label, corners from the smallest on
-  std::vector<int> slots_, spare_slots_;        // faces of the mesh
-  std::vector<std::size_t> spare_faces_;        // places in the patch
+  std::vector<std::pair<int, Triangle>> keys_;          // per new face: label, corners from the smallest on
+  std::vector<int> old_constraints_, new_constraints_;  // of the edges inside
+  std::vector<int> slots_, spare_slots_;                // faces of the mesh
+  std::vector<std::size_t> spare_faces_;                // places in the patch
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ class Finisher {
   // defect unless it is allowed. A new face takes the place of one with its label, so that the user's numbers
   // stay where they are; only when vertices have escaped do slots change their label. The patch does not
   // depend on the order of the new faces. Checks the certificate: as many faces as were in the set, as many
-  // edges, each face upright. Throws std::logic_error otherwise, which is a bug of ours. Without a defect
+  // edges, each constrained edge again, each face upright. Throws std::logic_error otherwise, which is a bug of ours. Without a defect
   // `patch` is overwritten.
   [[nodiscard]] std::optional<Defect> run(const Mesh& mesh, const FaceSets& sets, int set, NewFaces& faces,
                                           bool allow_escaped, Patch& patch);
