@@ -19,6 +19,11 @@ constexpr int faces_at_hand = 4096;
 }  // namespace
 
 RepairOutcome GlobalUntangling::repair(Mesh& mesh, const RepairOptions& options) {
+  return *repair_within({mesh.n_faces(), mesh.n_faces()}, mesh, options);
+}
+
+std::optional<RepairOutcome> GlobalUntangling::repair_within(const Limits& limits, Mesh& mesh,
+                                                             const RepairOptions& options) {
   RepairOutcome outcome;
   auto& record = outcome.record;
   const Stopwatch detecting;
@@ -31,12 +36,15 @@ RepairOutcome GlobalUntangling::repair(Mesh& mesh, const RepairOptions& options)
     return outcome;
   }
 
+  if (record.inverted + record.degenerate > limits.tangled) return std::nullopt;
   walk_.start(mesh, tangles, repair_.regions());
+  walk_.give_up_beyond(limits.in_regions);
   repair_.start();
   for (bool more = true; more && !outcome.defect;) {
     const Stopwatch exploring;
     more = walk_.advance(faces_at_hand);
     record.explore_ms += exploring.milliseconds();
+    if (walk_.is_too_far()) return std::nullopt;
     const Stopwatch triangulating;
     outcome.defect = repair_.remesh_new(mesh, options);
     record.triangulate_ms += triangulating.milliseconds();

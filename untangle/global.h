@@ -16,6 +16,13 @@ class GlobalUntangling : public Strategy {
   std::string_view name() const override { return "global"; }
   [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
 
+  // The same, unless more faces than this are tangled or in regions: then nothing, and the mesh is as it was.
+  struct Limits {
+    int tangled, in_regions;
+  };
+  [[nodiscard]] std::optional<RepairOutcome> repair_within(const Limits& limits, Mesh& mesh,
+                                                           const RepairOptions& options);
+
  private:
   void splice(Mesh& mesh, RepairRecord& record);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <limits>
 
 #include "core/predicates.h"
 
@@ -35,18 +34,18 @@ void GlobalWalk::start(const Mesh& mesh, const Tangles& tangles, FaceSets& regio
   shadows_.build(mesh, tangled_);
   regions.reset(mesh.n_faces());
   next_seed_ = 0;
+  n_visited_ = 0;
+  most_faces_ = std::numeric_limits<int>::max();
 }
 
 bool GlobalWalk::advance(int n_faces) {
-  int n_found = 0;
-  for (; next_seed_ < tangled_.size() && n_found < n_faces; ++next_seed_) {
+  const int n_before = n_visited_;
+  for (; next_seed_ < tangled_.size() && n_visited_ - n_before < n_faces && !is_too_far(); ++next_seed_) {
     if (next_seed_ % seeds_ahead == 0) {
       const std::span all(tangled_);
       fetch_around(all.subspan(next_seed_, std::min(seeds_ahead, all.size() - next_seed_)));
     }
-    if (regions_->set_of(tangled_[next_seed_]) != none) continue;
-    walk_from(tangled_[next_seed_]);
-    n_found += static_cast<int>(regions_->faces(region_).size());
+    if (regions_->set_of(tangled_[next_seed_]) == none) walk_from(tangled_[next_seed_]);
   }
   return next_seed_ < tangled_.size();
 }
@@ -55,7 +54,7 @@ void GlobalWalk::walk_from(int seed) {
   region_ = regions_->open();
   pending_.clear();
   visit(seed);
-  while (!pending_.empty()) {
+  while (!pending_.empty() && !is_too_far()) {
     const int face = pending_.back();
     pending_.pop_back();
     leave(face);
@@ -82,6 +81,7 @@ void GlobalWalk::fetch_around(std::span<const int> seeds) const {
 
 void GlobalWalk::visit(int face) {
   regions_->add(face, region_);
+  ++n_visited_;
   pending_.push_back(face);
 }
 

@@ -1,6 +1,7 @@
 // Which faces a global repair has to replace: the preimage phi(I) of everything an inverted face covers.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,11 @@ class GlobalWalk {
   void start(const Mesh& mesh, const Tangles& tangles, FaceSets& regions);
   bool advance(int n_faces);
 
+  // Makes the walk that has been started end in the middle of a region once the regions hold more faces than
+  // this: is_too_far is true then, and the regions are of no use.
+  void give_up_beyond(int n_faces) { most_faces_ = n_faces; }
+  bool is_too_far() const { return n_visited_ > most_faces_; }
+
  private:
   void walk_from(int seed);
   void visit(int face);
@@ -47,6 +53,8 @@ class GlobalWalk {
   std::vector<bool> is_tangled_;  // per face; all false between walks but for those in tangled_
   ShadowIndex shadows_;           // of F
   std::vector<int> pending_;
+  int n_visited_ = 0;
+  int most_faces_ = std::numeric_limits<int>::max();
 };
 
 }  // namespace kinemesh

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "untangle/auto.h"
 #include "untangle/global.h"
 #include "untangle/local.h"
 #include "untangle/remesh.h"
@@ -22,6 +23,7 @@ std::vector<StrategyInfo>& registry() {
       info<LocalUntangling>(
           "local", "replaces the minimum region around one inverted face after the other; always ends valid"),
       info<FullRemesh>("remesh", "triangulates all vertices anew at every step (CGAL); always ends valid"),
+      info<AutomaticRepair>("auto", "global, or remesh where most of the mesh is tangled; always ends valid"),
   };
   return all;
 }

@@ -165,6 +165,26 @@ TEST(FullRemesh, LeavesNoInvertedFaceAndReplacesAll) {
   }
 }
 
+TEST(Automatic, DoesWhatTheBetterOneDoes) {
+  int as_global = 0, as_remesh = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Mesh before = random_tangle(seed).mesh;
+    Mesh mesh = before, by_global = before, by_remesh = before;
+    const auto outcome = repair(mesh, true, "auto"), global = repair(by_global, true, "global");
+    ASSERT_TRUE(outcome && global && repair(by_remesh, true, "remesh")) << seed;
+    EXPECT_EQ(message(validate(mesh)), "") << seed;
+    const bool has_remeshed = outcome.record.replaced == mesh.n_faces();
+    EXPECT_EQ(snapshot_of(mesh), snapshot_of(has_remeshed ? by_remesh : by_global)) << seed;
+    EXPECT_EQ(outcome.record.inverted, global.record.inverted) << seed;
+    const bool is_most = 2 * global.record.region_faces() > mesh.n_faces();
+    EXPECT_TRUE(has_remeshed || !is_most) << seed;
+    EXPECT_TRUE(!has_remeshed || is_most || 10 * global.record.inverted > mesh.n_faces()) << seed;
+    ++(has_remeshed ? as_remesh : as_global);
+  }
+  EXPECT_GT(as_global, 20);
+  EXPECT_GT(as_remesh, 20);
+}
+
 TEST(Strategies, AreFoundByNameOnly) {
   EXPECT_EQ(make_strategy("global")->name(), "global");
   EXPECT_EQ(make_strategy("remesh")->name(), "remesh");
