@@ -121,7 +121,11 @@ void copy(const MeshData& data, double* xy, std::int32_t* triangles, std::int32_
 
 Mesh valid_mesh(const MeshData& data, double frame) {
   Mesh mesh = build_mesh(data, {.frame = frame, .fixed = {}});
-  if (const auto defect = validate(mesh)) throw InputError(defect->message());
+  if (const auto defect = validate(mesh)) {
+    const bool is_tangled = defect->kind == DefectKind::InvertedFace || defect->kind == DefectKind::FlatFace;
+    throw InputError(defect->message() +
+                     (is_tangled ? "; kinemesh_mesh_untangle makes a valid mesh of it" : ""));
+  }
   return mesh;
 }
 

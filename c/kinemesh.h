@@ -87,7 +87,7 @@ typedef struct kinemesh_options {
 /* global, none, frame 0.25, 0, 0. */
 KINEMESH_API kinemesh_options kinemesh_default_options(void);
 
-/* The mesh is copied; it has to be valid. options: NULL for the default ones. */
+/* The mesh is copied; it has to be valid (kinemesh_mesh_untangle). options: NULL for the default ones. */
 KINEMESH_API kinemesh_status kinemesh_stepper_create(const kinemesh_mesh* mesh,
                                                      const kinemesh_options* options,
                                                      kinemesh_stepper** stepper);

@@ -126,7 +126,8 @@ void ChangeTracker::take_back(Mesh& mesh) noexcept {
 std::vector<ChangedPatch> ChangeTracker::patches(const Mesh& mesh,
                                                  std::span<const RegionRecord> regions) const {
   const auto number = patch_numbers(mesh, regions);
-  std::vector<ChangedPatch> all(changed_.size());
+  const int count = number.empty() ? 0 : 1 + *std::max_element(number.begin(), number.end());
+  std::vector<ChangedPatch> all(count);
   for (std::size_t i = 0; i < changed_.size(); ++i) {
     const auto change = change_of(mesh, changed_[i]);
     if (change.face != none) all[number[i]].faces.push_back(change);
@@ -160,7 +161,11 @@ std::vector<int> ChangeTracker::patch_numbers(const Mesh& mesh, std::span<const 
     }
   }
   std::vector<int> numbers(changed_.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = sets.root(static_cast<int>(i));
+  int count = 0;
+  for (int i = 0; i < static_cast<int>(numbers.size()); ++i) {
+    const int root = sets.root(i);  // the smallest of its set, and so numbered already
+    numbers[i] = root == i ? count++ : numbers[root];
+  }
   return numbers;
 }
 

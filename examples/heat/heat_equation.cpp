@@ -75,7 +75,7 @@ std::vector<int> HeatEquation::reshaped_faces() const {
     for (const int f : matrices_.faces_at(v))
       if (labels_[f] == medium) faces.push_back(f);
   std::ranges::sort(faces);
-  faces.erase(std::ranges::unique(faces).begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   return faces;
 }
 

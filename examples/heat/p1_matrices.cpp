@@ -48,7 +48,7 @@ void P1Matrices::measure(std::span<const int> faces, std::span<const Point> x) {
     touched.insert(touched.end(), triangles_[f].begin(), triangles_[f].end());
   }
   std::ranges::sort(touched);
-  touched.erase(std::ranges::unique(touched).begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   for (const int v : touched) sum_row(v);
 }
 

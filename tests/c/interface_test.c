@@ -158,6 +158,7 @@ static void refuses_what_is_no_mesh(void) {
   tangled[13] = 0.5;
   CHECK(kinemesh_mesh_create(n_vertices, tangled, n_faces, triangles, NULL, &mesh) == KINEMESH_OK);
   CHECK(kinemesh_stepper_create(mesh, NULL, &stepper) == KINEMESH_BAD_INPUT);
+  CHECK(strstr(kinemesh_error(), "kinemesh_mesh_untangle"));
   CHECK(kinemesh_mesh_untangle(mesh, NULL) == KINEMESH_OK);
   stepper = stepper_on(mesh, NULL);
   check_upright(stepper);
