@@ -61,6 +61,9 @@ class Vortices {
     for (double& strength : strength_) strength *= scale;
   }
 
+  Vortices(const Vortices&) = delete;  // the stepper's observer knows where it is
+  Vortices& operator=(const Vortices&) = delete;
+
   void step(double dt) {
     convect(dt);
     const auto outcome = stepper_.step(x_, dt);

@@ -29,6 +29,8 @@ struct Problem {
 class HeatEquation {
  public:
   HeatEquation(const Problem& problem, double h);
+  HeatEquation(const HeatEquation&) = delete;  // the stepper's observer knows where it is
+  HeatEquation& operator=(const HeatEquation&) = delete;
 
   // One step of length dt, always the same one. Throws std::runtime_error where the mesh cannot follow.
   void step(double dt);
