@@ -134,9 +134,9 @@ class Reader {
   template <class T>
   void get_numbers(std::span<T> values) {
     const std::string_view source = take(values.size_bytes());
-    const std::span target(reinterpret_cast<char*>(values.data()), values.size_bytes());
-    std::ranges::copy(source, target.begin());
-    little_endian(target, NumbersOf<T>::size);
+    if (source.empty()) return;
+    std::memcpy(values.data(), source.data(), source.size());
+    little_endian({reinterpret_cast<char*>(values.data()), source.size()}, NumbersOf<T>::size);
   }
   std::size_t count(std::size_t bytes_each) {
     std::uint64_t n = 0;

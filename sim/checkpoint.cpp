@@ -2,7 +2,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/validate.h"
-#include "sim/binary.h"
+#include "sim/mesh_members.h"
 
 namespace kinemesh {
 
@@ -10,31 +10,6 @@ namespace fs = std::filesystem;
 using binary::Is;
 
 // Members in the order of the file; docs/formats.md lists them.
-
-template <class Archive, class S>
-requires Is<S, Marker>
-void members(Archive& archive, S& marker) {
-  archive(marker.name, marker.edges);
-}
-
-template <class Archive, class S>
-requires Is<S, MeshData>
-void members(Archive& archive, S& data) {
-  archive(data.points, data.triangles, data.labels, data.markers, data.label_names);
-}
-
-template <class Archive, class S>
-requires Is<S, MeshOrigin>
-void members(Archive& archive, S& origin) {
-  archive(origin.data, origin.frame, origin.fixed, origin.user_vertices, origin.user_faces);
-}
-
-template <class Archive, class S>
-requires Is<S, MeshState>
-void members(Archive& archive, S& state) {
-  archive(state.positions, state.outgoing, state.triangles, state.sides, state.labels,
-          state.edge_constraints);
-}
 
 template <class Archive, class S>
 requires Is<S, PhaseTimes>

@@ -12,6 +12,7 @@
 #include "core/stopwatch.h"
 #include "sim/checkpoint.h"
 #include "sim/csv_log.h"
+#include "sim/failed_step.h"
 #include "sim/run_directory.h"
 #include "sim/run_report.h"
 #include "sim/series.h"
@@ -55,6 +56,7 @@ class Runner {
   Runner(const Scenario& scenario, const RunOptions& options, RunObserver& observer, SetUp set_up,
          RunPlan plan)
       : scenario_(scenario),
+        options_(options),
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
@@ -71,6 +73,7 @@ class Runner {
   Runner(const Scenario& scenario, const RunOptions& options, RunObserver& observer, SetUp set_up,
          RunPlan plan, Restart from)
       : scenario_(scenario),
+        options_(options),
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
@@ -134,17 +137,49 @@ class Runner {
 
   void do_step() {
     const int n = stepper_.steps_done() + 1;
-    const StepOutcome outcome = stepper_.step_to(motion_, scenario_.time.time_after(n));
+    const StepOutcome outcome = step_to(scenario_.time.time_after(n));
     if (outcome) {
       write_step(outcome.record);
     } else {
-      stop("step " + std::to_string(n) + " has no valid mesh: " + outcome.defect->message(), false);
+      stop(why_stopped(outcome), false);
       log_.write(outcome.record);
     }
     observer_.stepped(outcome.record, stepper_.mesh());
     if (const char* signal = StopOnSignals::received();
         signal && n < scenario_.time.steps && !summary_.stopped)
       stop(std::string("stopped by ") + signal + " after step " + std::to_string(n), true);
+  }
+
+  // Memory that ran out is no property of the step.
+  StepOutcome step_to(double end_time) {
+    try {
+      auto outcome = stepper_.step_to(motion_, end_time);
+      if (!outcome) dump(end_time, why_stopped(outcome), outcome.defect->detail);
+      return outcome;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      dump(end_time, error.what(), "");
+      throw;
+    }
+  }
+
+  // Where this fails, too, the reason to stop is still the first.
+  void dump(double end_time, const std::string& message, const std::string& detail) {
+    if (!options_.dump_on_failure) return;
+    try {
+      FailedStep step = failed_step(stepper_, motion_, end_time);
+      step.program = KINEMESH_VERSION;
+      step.source = scenario_.file.string();
+      step.message = message;
+      step.detail = detail;
+      step.options = stepper_options(scenario_);
+      step.origin = checkpoint_.origin;
+      write_file_atomically(directory_ / "failed_step.bin", format_failed_step(step));
+      observer_.note("the step is in " + (directory_ / "failed_step.bin").string() + ", for kinemesh replay");
+    } catch (const std::exception& error) {
+      observer_.note(std::string("the step could not be written: ") + error.what());
+    }
   }
 
   // Log, mesh and checkpoint of an accepted step. Where the first two cannot be written, files are as before.
@@ -200,6 +235,7 @@ class Runner {
   }
 
   const Scenario& scenario_;
+  const RunOptions& options_;
   RunObserver& observer_;
   std::filesystem::path directory_;
   Motion motion_;
@@ -226,6 +262,10 @@ RunSummary go(const Scenario& scenario, const RunOptions& options, RunObserver& 
 }
 
 }  // namespace
+
+std::string why_stopped(const StepOutcome& outcome) {
+  return "step " + std::to_string(outcome.record.step) + " has no valid mesh: " + outcome.defect->message();
+}
 
 RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver& observer) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,

@@ -14,6 +14,7 @@ namespace kinemesh {
 struct RunOptions {
   std::filesystem::path directory;  // empty: the scenario's name in the current folder
   bool force = false;               // a run that is already there makes way
+  bool dump_on_failure = false;     // failed_step.bin of a step without valid mesh, for replay
   bool resume = false;              // goes on with the run that is there from its last checkpoint
   bool dry_run = false;             // check everything, step nothing, write nothing
   int threads = 0;                  // 0: all cores
@@ -73,6 +74,9 @@ class RunObserver {
   virtual void stepped(const StepRecord& /*record*/, const Mesh& /*mesh*/) {}  // rejected steps, too
   virtual void finished(const RunSummary& /*summary*/) {}
 };
+
+// The reason to stop at a step with a defect.
+std::string why_stopped(const StepOutcome& outcome);
 
 // Writes scenario.toml, run.json, steps.csv, regions.csv, mesh_NNNNNN.vtu, mesh.pvd and the last mesh as
 // final.EXT in the input's own format into options.directory. The files but the two CSVs, which grow a line

@@ -17,9 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> fixed_names = {
-    "scenario.toml", "run.json",       "steps.csv",           "regions.csv",
-    "mesh.pvd",      "checkpoint.bin", "checkpoint_prev.bin", "checkpoint_next.bin"};
+constexpr std::array<std::string_view, 9> fixed_names = {
+    "scenario.toml",  "run.json",       "steps.csv",           "regions.csv",
+    "mesh.pvd",       "checkpoint.bin", "checkpoint_prev.bin", "checkpoint_next.bin",
+    "failed_step.bin"};
 
 bool is_mesh_of_series(std::string_view name) {
   if (!name.starts_with("mesh_") || !name.ends_with(".vtu") || name.size() < 15) return false;
@@ -122,7 +123,7 @@ void clear_run_directory(const fs::path& directory) {
 
 void remove_later_meshes(const fs::path& directory, std::span<const std::string> kept) {
   const auto is_later = [&](const std::string& name) {
-    return is_last_mesh(name) || is_half_written(name) ||
+    return is_last_mesh(name) || is_half_written(name) || name == "failed_step.bin" ||
            (is_mesh_of_series(name) && std::ranges::find(kept, name) == kept.end());
   };
   with_file_errors(directory, [&] {

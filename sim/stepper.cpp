@@ -196,15 +196,23 @@ void Stepper::refresh_positions() {
 }
 
 StepOutcome Stepper::step(std::span<const Point> positions, double dt) {
+  return step_by(positions, time_ + dt, dt);
+}
+
+StepOutcome Stepper::step_to(std::span<const Point> positions, double end_time) {
+  return step_by(positions, end_time, end_time - time_);
+}
+
+StepOutcome Stepper::step_by(std::span<const Point> positions, double end_time, double dt) {
   require_forward(dt);
   if (static_cast<int>(positions.size()) != mesh_.n_user_vertices())
     throw InputError(std::to_string(positions.size()) + " positions, " +
                      std::to_string(mesh_.n_user_vertices()) + " expected");
-  return advance(time_ + dt, dt, [&](std::span<Point> next) {
+  return advance(end_time, dt, [&](std::span<Point> next) {
     for (int v = 0; v < mesh_.n_vertices(); ++v)
       if (const int user = mesh_.user_vertex(v); user != none) next[v] = positions[user];
-    return non_finite_defect(
-        mesh_, next, [&](int) { return "in the positions given for time " + exact_text(time_ + dt); });
+    return non_finite_defect(mesh_, next,
+                             [&](int) { return "in the positions given for time " + exact_text(end_time); });
   });
 }
 

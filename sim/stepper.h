@@ -70,8 +70,9 @@ class Stepper {
   // By a motion from time() to time() + dt; `motion` was built on this stepper's initial mesh.
   [[nodiscard]] StepOutcome step(const Motion& motion, double dt);
 
-  // Likewise, and sets time() to end_time exactly.
+  // Likewise, and set time() to end_time exactly.
   [[nodiscard]] StepOutcome step_to(const Motion& motion, double end_time);
+  [[nodiscard]] StepOutcome step_to(std::span<const Point> positions, double end_time);
 
   // For whoever lets the stepper hold the positions: one per user's vertex in the user's order, to be moved
   // in place and then repaired, as a step of length dt. After any step that returns they are those of the
@@ -97,6 +98,7 @@ class Stepper {
   template <class Move>
   StepOutcome advance(double end_time, double dt, const Move& move);
   StepOutcome step_by(const Motion& motion, double end_time, double dt);
+  StepOutcome step_by(std::span<const Point> positions, double end_time, double dt);
   void repair_moved(StepOutcome& outcome);
   void improve(RepairRecord& record);
   void tell_observers(const StepRecord& record);

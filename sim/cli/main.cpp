@@ -93,6 +93,7 @@ int run_program(int argc, char** argv) {
       "Exit codes: 0 done; 1 the mesh is not valid, or no valid mesh exists, or the run had to stop;\n"
       "2 bad input or usage.");
   add_run(program, action, {argv, argv + argc});
+  add_replay(program, action);
   add_check(program, action);
   add_untangle(program, action);
   add_convert(program, action);

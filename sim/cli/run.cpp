@@ -139,6 +139,8 @@ void add_run(CLI::App& program, Action& action, const std::vector<std::string>& 
   command.add_flag("--split-quads", arguments->split_quads,
                    "Cut the mesh's quadrilaterals in two instead of refusing them");
   command.add_flag("--dry-run", options.dry_run, "Say what would be done, and write nothing");
+  command.add_flag("--dump-on-failure", options.dump_on_failure,
+                   "Write a step without valid mesh, for `kinemesh replay`");
   CLI::Option* force = command.add_flag("--force", options.force, "Replace the run that is in the folder");
   command.add_flag("--resume", options.resume, "Go on with the run that is in the folder")->excludes(force);
   CLI::Option* quiet = command.add_flag("-q,--quiet", arguments->quiet, "Say nothing but errors");

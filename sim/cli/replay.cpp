@@ -1,0 +1,76 @@
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "core/io/atomic_file.h"
+#include "core/io/mesh_io.h"
+#include "sim/cli/commands.h"
+#include "sim/cli/console.h"
+#include "sim/failed_step.h"
+#include "sim/run.h"
+
+namespace kinemesh::cli {
+namespace {
+
+struct ReplayArguments {
+  std::string file, before, after;
+};
+
+FailedStep read_failed_step(const std::string& file) {
+  const std::string content = read_file(file);
+  try {
+    FailedStep step = parse_failed_step(content);
+    (void)mesh_before(step);
+    return step;
+  } catch (const InputError& error) {
+    throw InputError(file, 0, error.what());
+  }
+}
+
+void write_meshes(const FailedStep& step, const ReplayArguments& arguments) {
+  if (arguments.before.empty() && arguments.after.empty()) return;
+  MeshData mesh = mesh_before(step).domain();
+  if (!arguments.before.empty()) write_mesh(arguments.before, mesh);
+  mesh.points = step.moved;
+  if (!arguments.after.empty()) write_mesh(arguments.after, mesh);
+}
+
+// What the run said when it had to stop, or nothing.
+std::string reason_to_stop(const FailedStep& step) {
+  try {
+    const StepOutcome outcome = replay(step);
+    return outcome ? "" : why_stopped(outcome);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+int replay_file(const ReplayArguments& arguments) {
+  const FailedStep step = read_failed_step(arguments.file);
+  write_meshes(step, arguments);
+  const std::string reason = reason_to_stop(step);
+  if (reason.empty()) {
+    fmt::print("step {} ends with a valid mesh; version {} had said: {}\n", step.steps_done + 1, step.program,
+               step.message);
+    return done;
+  }
+  print_error(step.source + ": " + reason);
+  return not_valid;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& program, Action& action) {
+  const auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App& command =
+      *program.add_subcommand("replay", "Do the step again that `run --dump-on-failure` has written");
+  command.add_option("CASE", arguments->file, "The step: failed_step.bin of a run")->required();
+  command.add_option("--before", arguments->before, "Write the mesh before the step to this file");
+  command.add_option("--after", arguments->after, "Write it with the vertices moved, and nothing repaired");
+  command.footer("Says what the run said, with the same exit code, unless the step now ends valid.");
+  command.callback([arguments, &action] { action = [arguments] { return replay_file(*arguments); }; });
+}
+
+}  // namespace kinemesh::cli

@@ -1,0 +1,68 @@
+#include "sim/failed_step.h"
+
+#include "sim/mesh_members.h"
+
+namespace kinemesh {
+
+template <class Archive, class S>
+requires binary::Is<S, StepperOptions>
+void members(Archive& archive, S& options) {
+  archive(options.strategy, options.quality, options.allow_escaped, options.retain);
+}
+
+template <class Archive, class S>
+requires binary::Is<S, FailedStep>
+void members(Archive& archive, S& step) {
+  archive(step.program, step.source, step.message, step.detail, step.options, step.origin, step.mesh,
+          step.moved, step.time, step.end_time, step.steps_done);
+}
+
+namespace {
+
+constexpr binary::Kind kind{"KMFSTEP\n", 1, "failed step of kinemesh"};
+
+}  // namespace
+
+FailedStep failed_step(const Stepper& stepper, const Motion& motion, double end_time) {
+  const Mesh& mesh = stepper.mesh();
+  std::vector<Point> next(mesh.positions().begin(), mesh.positions().end());
+  motion.advance(mesh.positions(), stepper.time(), end_time - stepper.time(),
+                 static_cast<std::uint64_t>(stepper.steps_done()), next);
+  FailedStep step;
+  step.mesh = state_of(mesh);
+  for (int u = 0; u < mesh.n_user_vertices(); ++u) step.moved.push_back(next[mesh.vertex_of_user(u)]);
+  step.time = stepper.time();
+  step.end_time = end_time;
+  step.steps_done = stepper.steps_done();
+  return step;
+}
+
+Mesh mesh_before(const FailedStep& step) {
+  Mesh mesh = rebuild(step.origin);
+  restore(mesh, step.mesh);
+  return mesh;
+}
+
+StepOutcome replay(const FailedStep& step) {
+  Stepper stepper(mesh_before(step), step.options, step.time, step.steps_done);
+  StepOutcome outcome = stepper.step_to(step.moved, step.end_time);
+  if (outcome.defect && outcome.defect->kind == DefectKind::NonFinitePosition)
+    outcome.defect->detail = step.detail;
+  return outcome;
+}
+
+std::string format_failed_step(const FailedStep& step) {
+  binary::Writer writer;
+  members(writer, step);
+  return binary::seal(kind, writer.bytes());
+}
+
+FailedStep parse_failed_step(std::string_view content) {
+  binary::Reader reader(binary::unseal(kind, content));
+  FailedStep step;
+  members(reader, step);
+  reader.expect_end();
+  return step;
+}
+
+}  // namespace kinemesh
