@@ -1,14 +1,12 @@
 #include "core/measure.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "core/pair.h"
+#include "core/parallel.h"
 
 namespace kinemesh {
 namespace {
@@ -80,8 +78,7 @@ Partial measure(const Mesh& mesh, int begin, int end) {
   return partial;
 }
 
-constexpr int grain =
-    1 << 14;  // fixed, so that sums are taken in the same order whatever the number of threads
+constexpr int grain = 1 << 14;  // faces that are worth a task
 
 }  // namespace
 
@@ -94,16 +91,11 @@ double tangent_of_smallest_angle(const std::array<Point, 3>& p) {
 }
 
 Measures measure(const Mesh& mesh) {
-  const auto total = tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<int>(0, mesh.n_faces(), grain), Partial{},
-      [&](const tbb::blocked_range<int>& range, Partial partial) {
-        partial.join(measure(mesh, range.begin(), range.end()));
-        return partial;
-      },
-      [](Partial a, const Partial& b) {
-        a.join(b);
-        return a;
-      });
+  std::array<Partial, most_parts> partial;
+  parallel_parts(mesh.n_faces(), grain,
+                 [&](int part, int begin, int end) { partial[part] = measure(mesh, begin, end); });
+  Partial total;
+  for (const auto& part : partial) total.join(part);
   return {total.area[0] + total.area[1], smallest(total.min_area),
           std::atan(smallest(total.min_tangent)) * 180.0 / std::numbers::pi};
 }

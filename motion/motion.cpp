@@ -1,25 +1,20 @@
 #include "motion/motion.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "core/measure.h"
+#include "core/parallel.h"
 #include "motion/noise_cut.h"
 
 namespace kinemesh {
 namespace {
 
-using Range = tbb::blocked_range<int>;
-
-template <class Points>
-Range vertices(const Points& x) {
-  return {0, static_cast<int>(x.size()), 4096};
-}
+constexpr int grain = 4096;  // vertices that are worth a task
 
 bool is_finite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
@@ -82,16 +77,16 @@ Motion::Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions
 
 void Motion::advance(std::span<const Point> x0, double t, double dt, std::uint64_t step,
                      std::span<Point> x1) const {
+  const int n = static_cast<int>(x0.size());
   if (noises_.empty()) {
-    tbb::parallel_for(vertices(x0), [&](const Range& some) {
-      for (int v = some.begin(); v < some.end(); ++v) x1[v] = moved(x0[v], smooth_way(v, x0[v], t, dt));
+    parallel_parts(n, grain, [&](int, int begin, int end) {
+      for (int v = begin; v < end; ++v) x1[v] = moved(x0[v], smooth_way(v, x0[v], t, dt));
     });
     return;
   }
   const NoiseCut cut(x0, constrained_, fill_noise(dt, step, x1));
-  tbb::parallel_for(vertices(x0), [&](const Range& some) {
-    for (int v = some.begin(); v < some.end(); ++v)
-      x1[v] = moved(x0[v], smooth_way(v, x0[v], t, dt) + cut(x0[v], x1[v]));
+  parallel_parts(n, grain, [&](int, int begin, int end) {
+    for (int v = begin; v < end; ++v) x1[v] = moved(x0[v], smooth_way(v, x0[v], t, dt) + cut(x0[v], x1[v]));
   });
 }
 
@@ -130,16 +125,14 @@ Point Motion::noise(int vertex, std::uint64_t step, double dt) const {
 }
 
 double Motion::fill_noise(double dt, std::uint64_t step, std::span<Point> noises) const {
-  return tbb::parallel_reduce(
-      vertices(noises), 0.0,
-      [&](const Range& some, double longest) {
-        for (int v = some.begin(); v < some.end(); ++v) {
-          noises[v] = noise(v, step, dt);
-          longest = std::max(longest, glm::length(noises[v]));
-        }
-        return longest;
-      },
-      [](double a, double b) { return std::max(a, b); });
+  std::array<double, most_parts> longest{};
+  parallel_parts(static_cast<int>(noises.size()), grain, [&](int part, int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      noises[v] = noise(v, step, dt);
+      longest[part] = std::max(longest[part], glm::length(noises[v]));
+    }
+  });
+  return *std::max_element(longest.begin(), longest.end());
 }
 
 std::string Motion::describe_non_finite(int vertex, std::span<const Point> x0, double t, double dt,

@@ -1,12 +1,11 @@
 #include "motion/restriction.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/parallel.h"
 #include "motion/segment_index.h"
 
 namespace kinemesh {
@@ -75,10 +74,9 @@ template <class Weight>
 std::vector<double> each_vertex(const Mesh& mesh, const Weight& weight) {
   std::vector<double> all(mesh.n_vertices());
   const auto x = mesh.positions();
-  tbb::parallel_for(tbb::blocked_range<int>(0, mesh.n_vertices(), 4096),
-                    [&](const tbb::blocked_range<int>& some) {
-                      for (int v = some.begin(); v < some.end(); ++v) all[v] = weight(v, x[v]);
-                    });
+  parallel_parts(mesh.n_vertices(), 4096, [&](int, int begin, int end) {
+    for (int v = begin; v < end; ++v) all[v] = weight(v, x[v]);
+  });
   return all;
 }
 

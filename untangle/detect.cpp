@@ -1,17 +1,15 @@
 #include "untangle/detect.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "core/pair.h"
+#include "core/parallel.h"
 #include "core/predicates.h"
 
 namespace kinemesh {
 namespace {
 
-constexpr int chunk = 1 << 14;  // faces a task sweeps
+constexpr int grain = 1 << 14;  // faces that are worth a task
 constexpr int ahead = 64;       // faces whose positions are on their way from memory
 
 // The two products of orientation(), {l, r}.
@@ -62,11 +60,9 @@ void append(std::vector<int>& all, const std::vector<int>& some) {
 }  // namespace
 
 Tangles detect(const Mesh& mesh) {
-  const int n_chunks = (mesh.n_faces() + chunk - 1) / chunk;
-  std::vector<Tangles> found(n_chunks);
-  tbb::parallel_for(0, n_chunks, [&](int i) {
-    sweep(mesh, i * chunk, std::min((i + 1) * chunk, mesh.n_faces()), found[i]);
-  });
+  std::vector<Tangles> found(n_parts(mesh.n_faces(), grain));
+  parallel_parts(mesh.n_faces(), grain,
+                 [&](int part, int begin, int end) { sweep(mesh, begin, end, found[part]); });
   Tangles all;
   for (const auto& part : found) {
     append(all.inverted, part.inverted);

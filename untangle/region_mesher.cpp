@@ -95,11 +95,14 @@ bool RegionMesher::is_constrained(int edge) const {
 
 // --- what the triangulation says ---
 
-// Nothing where a larger region may help: what touches need not be an edge of the new mesh.
+// Nothing where a larger region may help: what touches need not be an edge of the new mesh. At a corner of
+// the frame, which users do not know, a vertex has left the domain.
 std::optional<Defect> RegionMesher::verdict(const Contact& contact) const {
   Defect defect{.where = contact.where};
   switch (contact.kind) {
     case Contact::Kind::CoincidentPoints:
+      for (const int i : {contact.first, contact.second})
+        if (user(i) == none) return left_domain(i == contact.first ? contact.second : contact.first);
       defect.kind = DefectKind::CoincidentVertices;
       defect.vertices = {user(contact.first), user(contact.second)};
       return defect;
@@ -136,12 +139,15 @@ bool RegionMesher::select_inside(int n_expected) {
   return static_cast<int>(inside_.size()) == n_expected && constrained_sides == 2 * inner_constraints_.size();
 }
 
+Defect RegionMesher::left_domain(int vertex) const {
+  return {.kind = DefectKind::LeftDomain, .vertices = {user(vertex)}, .where = points_[vertex]};
+}
+
 // A vertex beyond the border of the whole mesh is in no face of the region.
 bool RegionMesher::find_lost_vertex() {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!is_outside_hull(*mesh_, points_[i])) continue;
-    defect_ =
-        Defect{.kind = DefectKind::LeftDomain, .vertices = {user(static_cast<int>(i))}, .where = points_[i]};
+    defect_ = left_domain(static_cast<int>(i));
     return true;
   }
   return false;

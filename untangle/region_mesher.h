@@ -44,6 +44,7 @@ class RegionMesher {
   void add_edge(int halfedge);
   std::optional<Defect> verdict(const Contact& contact) const;
   bool select_inside(int n_expected);
+  Defect left_domain(int vertex) const;
   bool find_lost_vertex();
   bool find_taken_edge();
   void convert();

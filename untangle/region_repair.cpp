@@ -1,15 +1,16 @@
 #include "untangle/region_repair.h"
 
-#include <tbb/parallel_for.h>
-
 #include <stdexcept>
 #include <utility>
 
+#include "core/parallel.h"
 #include "untangle/new_faces.h"
 #include "untangle/records.h"
 
 namespace kinemesh {
 namespace {
+
+constexpr int grain = 16;  // regions that are worth a task
 
 // After so many rings of neighbours the whole mesh is taken.
 constexpr int max_rings = 4;
@@ -41,8 +42,9 @@ std::optional<Defect> RegionRepair::remesh_new(const Mesh& mesh, const RepairOpt
   const int first = n_prepared_;
   prepare_new();
   attempts_.assign(n_prepared_ - first, {});
-  tbb::parallel_for(first, n_prepared_,
-                    [&](int region) { attempts_[region - first] = attempt(mesh, options, region); });
+  parallel_parts(n_prepared_ - first, grain, [&](int, int begin, int end) {
+    for (int i = begin; i < end; ++i) attempts_[i] = attempt(mesh, options, first + i);
+  });
   for (int region = first; region < n_prepared_; ++region) {
     auto& result = attempts_[region - first];
     if (result.defect) return std::move(result.defect);

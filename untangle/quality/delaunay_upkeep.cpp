@@ -1,11 +1,9 @@
 #include "untangle/quality/delaunay_upkeep.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <new>
 
+#include "core/parallel.h"
 #include "core/predicates.h"
 
 namespace kinemesh {
@@ -15,14 +13,13 @@ namespace {
 // may come twice for an i.
 template <class F>
 void for_all(int n, const F& f) {
-  const auto sweep = [&](const tbb::blocked_range<int>& range) {
-    for (int i = range.begin(); i != range.end(); ++i) f(i);
+  const auto sweep = [&](int, int begin, int end) {
+    for (int i = begin; i != end; ++i) f(i);
   };
-  const tbb::blocked_range<int> all(0, n, 1 << 14);
   try {
-    tbb::parallel_for(all, sweep);
+    parallel_parts(n, 1 << 14, sweep);
   } catch (const std::bad_alloc&) {
-    sweep(all);
+    sweep(0, 0, n);
   }
 }
 
