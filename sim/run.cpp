@@ -13,6 +13,7 @@
 #include "sim/checkpoint.h"
 #include "sim/csv_log.h"
 #include "sim/failed_step.h"
+#include "sim/patches.h"
 #include "sim/run_directory.h"
 #include "sim/run_report.h"
 #include "sim/series.h"
@@ -65,6 +66,7 @@ class Runner {
         log_(directory_),
         series_(directory_, set_up.mesh) {
     checkpoint_.origin = origin_of(set_up.mesh);
+    if (scenario.output.patches) patches_.emplace(directory_, set_up.mesh);
     begin(std::move(plan));
     write_mesh_of_step();
   }
@@ -84,6 +86,7 @@ class Runner {
         summary_(from.checkpoint.totals),
         checkpoint_(std::move(from.checkpoint)),
         last_checkpoint_(checkpoint_.step) {
+    if (scenario.output.patches) patches_.emplace(directory_, checkpoint_.step);
     begin(std::move(plan));
   }
 
@@ -118,6 +121,7 @@ class Runner {
     checkpoint_.logs = log_.lengths();
     summary_.plan = std::move(plan);
     json_.write(summary_, RunState::Running);
+    if (patches_) stepper_.observe([this](const StepChanges& changes) { patches_->note(changes); });
   }
 
   // What fails once the run is under way ends it; the first reason counts.
@@ -189,9 +193,11 @@ class Runner {
     is_file_broken_ = true;
     try {
       log_.write(record);
+      if (patches_) patches_->write();
       if (is_multiple(record.step, scenario_.output.every)) write_mesh_of_step();
     } catch (...) {
       log_.shorten(checkpoint_.logs);
+      if (patches_) patches_->take_back();
       throw;
     }
     is_file_broken_ = false;
@@ -215,6 +221,7 @@ class Runner {
     checkpoint_.totals = summary_;
     checkpoint_.series = series_.state();
     log_.flush();
+    if (patches_) patches_->flush();
     write_checkpoint(directory_, checkpoint_);
     last_checkpoint_ = checkpoint_.step;
   }
@@ -230,7 +237,7 @@ class Runner {
 
   void list_files() {
     for (const auto& name : {std::string("mesh.pvd"), last_mesh_name(scenario_), std::string("steps.csv"),
-                             std::string("regions.csv")})
+                             std::string("regions.csv"), std::string("patches.bin")})
       if (std::filesystem::exists(directory_ / name)) summary_.files.push_back(directory_ / name);
   }
 
@@ -243,6 +250,7 @@ class Runner {
   RunJson json_;
   StepLog log_;
   MeshSeries series_;
+  std::optional<PatchesWriter> patches_;
   RunSummary summary_;
   Checkpoint checkpoint_;    // its origin and scenario, and the logs' lengths after the last accepted step
   int last_checkpoint_ = 0;  // step

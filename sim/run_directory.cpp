@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> fixed_names = {
+constexpr std::array<std::string_view, 10> fixed_names = {
     "scenario.toml",  "run.json",       "steps.csv",           "regions.csv",
     "mesh.pvd",       "checkpoint.bin", "checkpoint_prev.bin", "checkpoint_next.bin",
-    "failed_step.bin"};
+    "failed_step.bin", "patches.bin"};
 
 bool is_mesh_of_series(std::string_view name) {
   if (!name.starts_with("mesh_") || !name.ends_with(".vtu") || name.size() < 15) return false;

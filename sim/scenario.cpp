@@ -206,6 +206,7 @@ OutputSpec read_output(TomlTable& table) {
   OutputSpec output;
   output.every = static_cast<int>(table.integer("every", 0, most).value_or(output.every));
   output.checkpoint = static_cast<int>(table.integer("checkpoint", 0, most).value_or(output.checkpoint));
+  output.patches = table.boolean("patches").value_or(output.patches);
   table.refuse_other_keys();
   return output;
 }

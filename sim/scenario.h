@@ -75,8 +75,9 @@ struct RepairSpec {
 
 // [output]
 struct OutputSpec {
-  int every = 10;       // steps between meshes written; 0: only the first and the last
-  int checkpoint = 10;  // steps between checkpoints; 0: none
+  int every = 10;        // steps between meshes written; 0: only the first and the last
+  int checkpoint = 10;   // steps between checkpoints; 0: none
+  bool patches = false;  // write patches.bin
 };
 
 struct Scenario {

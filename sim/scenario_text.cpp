@@ -123,6 +123,7 @@ void write(Writer& out, const OutputSpec& output) {
   out.header("[output]");
   out.line("every", std::int64_t{output.every});
   out.line("checkpoint", std::int64_t{output.checkpoint});
+  out.line("patches", output.patches);
 }
 
 }  // namespace

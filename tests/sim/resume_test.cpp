@@ -25,7 +25,7 @@ const std::string scenario_text =
     "[[motion]]\nfield = 'rotor'\ncenter = [0.5, 0.5]\nradius = 0.33\nrate = 6\n"
     "[[motion]]\nfield = 'jitter'\namplitude = 0.3\n"
     "[time]\ndt = 0.05\nsteps = 12\n"
-    "[output]\nevery = 5\ncheckpoint = 3\n";
+    "[output]\nevery = 5\ncheckpoint = 3\npatches = true\n";
 
 class StopAfter : public RunObserver {
  public:

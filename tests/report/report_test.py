@@ -1,0 +1,289 @@
+"""Makes reports of runs of all kinds, checks what is in them, and opens them in Chromium where there is one."""
+
+import base64
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+import zlib
+from pathlib import Path
+
+ROOT = Path(os.environ["KINEMESH_SOURCE_DIR"])
+PROGRAM = os.environ["KINEMESH_PROGRAM"]
+WEB = ROOT / "sim/report/web"
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+# Where node's packages for the tests are kept between runs.
+MODULES = Path(os.environ["KINEMESH_TEST_DIR"])
+
+SCENARIO = """[mesh]
+shape = "square"
+vertices = 600
+[[motion]]
+field = "rotor"
+center = [0.5, 0.5]
+radius = 0.3
+rate = 6.0
+[time]
+dt = 0.02
+steps = 12
+[output]
+every = 3
+patches = true
+"""
+
+
+def program(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def npm(*arguments, cwd):
+    done = subprocess.run(["npm", *arguments], cwd=cwd, capture_output=True, text=True, check=False)
+    return done.returncode == 0
+
+
+def block(html, name):
+    text = re.search(rf'<script type="application/octet-stream" id="{name}">([^<]*)</script>', html).group(1)
+    return zlib.decompress(base64.b64decode(text, validate=True)) if text.strip() else b""
+
+
+class Bytes:
+    def __init__(self, data):
+        self.data, self.at = data, 0
+
+    def count(self):
+        value = shift = 0
+        while True:
+            byte = self.data[self.at]
+            self.at += 1
+            value |= (byte & 127) << shift
+            shift += 7
+            if byte < 128:
+                return value
+
+    def signed(self):
+        n = self.count()
+        return -(n + 1) // 2 if n % 2 else n // 2
+
+
+def decode(mesh, data):
+    """The meshes of all frames: [(positions, faces)], as the page's player would show them."""
+    bytes_, corner, faces = Bytes(data), 0, []
+    for _ in range(3 * mesh["faces"]):
+        corner += bytes_.signed()
+        faces.append(corner)
+    faces = [tuple(faces[3 * f : 3 * f + 3]) for f in range(mesh["faces"])] + [(0, 0, 0)] * (mesh["slots"] - mesh["faces"])
+    for _ in range(mesh["faces"]):
+        bytes_.signed()
+    x, last, frames = [0] * (2 * mesh["vertices"]), [], []
+
+    def change():
+        face = 0
+        n = bytes_.count()
+        for _ in range(n):
+            face += bytes_.signed()
+            faces[face] = tuple(v + bytes_.signed() for v in faces[face])
+        return n
+
+    for _ in mesh["frames"]:
+        mode = bytes_.data[bytes_.at]
+        bytes_.at += 1
+        before = x[:]
+        for i in range(len(x)):
+            guess = (x[i - 2] if i > 1 else 0) if mode == 0 else before[i] + (before[i] - last[i] if mode == 2 else 0)
+            x[i] = guess + bytes_.signed()
+        last = x[:] if mode == 0 else before
+        replaced = change()
+        for _ in range(bytes_.count()):
+            for _ in range(bytes_.count()):
+                bytes_.count()
+            replaced += change()
+        for _ in range(5 * bytes_.count()):
+            bytes_.count()
+        x0, y0, step = mesh["box"]
+        frames.append(([(x0 + step * a, y0 + step * b) for a, b in zip(x[::2], x[1::2])], list(faces), replaced))
+    assert bytes_.at == len(data)
+    return frames
+
+
+def read_vtu(path):
+    off = path.with_suffix(".off")
+    assert program("convert", path, off).returncode == 0
+    numbers = off.read_text().split()[1:]
+    n, m = int(numbers[0]), int(numbers[1])
+    points = [tuple(map(float, numbers[3 + 3 * v : 5 + 3 * v])) for v in range(n)]
+    rest = numbers[3 + 3 * n :]
+    return points, [tuple(map(int, rest[4 * f + 1 : 4 * f + 4])) for f in range(m)]
+
+
+class Reports(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "rotor.toml").write_text(SCENARIO)
+        cls.run_to("rotor")
+        cls.run_to("one", "time.steps=1")
+        cls.run_to("series", "output.patches=false")
+        cls.copy("no_meshes", "run.json", "scenario.toml", "steps.csv", "regions.csv")
+        cls.copy("none", "run.json", "steps.csv", "regions.csv", "mesh_000000.vtu")
+        for name in ("steps.csv", "regions.csv"):
+            path = cls.folder / "none" / name
+            path.write_text(path.read_text().split("\n")[0] + "\n")
+        cls.make_many()
+        cls.make_bench()
+
+    @classmethod
+    def run_to(cls, name, *overrides):
+        sets = [word for key in overrides for word in ("--set", key)]
+        done = program("run", cls.folder / "rotor.toml", "-o", cls.folder / name, "-q", *sets)
+        assert done.returncode == 0, done.stderr
+
+    @classmethod
+    def copy(cls, name, *files):
+        (cls.folder / name).mkdir()
+        for file in files:
+            shutil.copy(cls.folder / "rotor" / file, cls.folder / name)
+
+    @classmethod
+    def make_many(cls):
+        (cls.folder / "many").mkdir()
+        header, row = (cls.folder / "rotor/steps.csv").read_text().split("\n")[:2]
+        rest = row.split(",")[5:]
+        rows = [header]
+        for n in range(1, 10001):
+            inverted = 1000 if n == 7777 else n % 10
+            rows.append(",".join([str(n), repr(n * 0.01), "0.01", "600", "1150", str(inverted), *rest[1:]]))
+        (cls.folder / "many/steps.csv").write_text("\n".join(rows) + "\n")
+
+    @classmethod
+    def make_bench(cls):
+        (cls.folder / "bench").mkdir()
+        header, *rows = (cls.folder / "rotor/steps.csv").read_text().split("\n")[:-1]
+        lines = ["strategy," + header]
+        lines += [f"{name}," + row for name in ("global", "remesh") for row in rows]
+        (cls.folder / "bench/bench.csv").write_text("\n".join(lines) + "\n")
+
+    def report(self, name, *options, out=None):
+        out = self.folder / f"{out or name}.html"
+        done = program("report", self.folder / name, "-o", out, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        html = out.read_text()
+        self.assertNotRegex(html.split("<script>")[0], r'(src|href)=')  # needs no other file
+        return html, json.loads(block(html, "data"))
+
+    def meshes(self, html, data):
+        return decode(data["mesh"], block(html, "frames"))
+
+    def test_frames_are_the_meshes_written(self):
+        for name, step_of in (("rotor", lambda n: n), ("series", lambda n: 3 * n)):
+            html, data = self.report(name)
+            frames = self.meshes(html, data)
+            self.assertEqual(len(frames), 13 if name == "rotor" else 5)
+            for n, (points, faces, _) in enumerate(frames):
+                path = self.folder / name / f"mesh_{step_of(n):06}.vtu"
+                if not path.exists():
+                    continue
+                expected_points, expected_faces = read_vtu(path)
+                self.assertEqual(faces, expected_faces)
+                for p, q in zip(points, expected_points):
+                    self.assertLess(math.dist(p, q), data["mesh"]["box"][2])
+            self.assertGreater(sum(frame[2] for frame in frames), 50)
+
+    def test_plots_hold_the_logs(self):
+        _, data = self.report("rotor")
+        header, *rows = [line.split(",") for line in (self.folder / "rotor/steps.csv").read_text().split("\n")[:-1]]
+        for name in ("time", "inverted", "replaced", "min_angle_deg", "total_ms"):
+            self.assertEqual(data["steps"][name], [float(row[header.index(name)]) for row in rows])
+        self.assertEqual(data["sizes"]["max"], [float(row[header.index("region_faces_max")]) for row in rows])
+        self.assertEqual(data["sizes"]["count"], [float(row[header.index("regions")]) for row in rows])
+
+    def test_thinning_keeps_the_peak_and_is_told(self):
+        _, data = self.report("many")
+        self.assertEqual(len(data["steps"]["time"]), 5000)
+        self.assertIn(1000, data["steps"]["inverted"])
+        self.assertIn("one of every 2 steps", " ".join(data["notes"]))
+
+    def test_a_page_keeps_to_its_size(self):
+        html, data = self.report("rotor")
+        whole = len(html)
+        limit = (whole - 2000) / 1e6
+        html, data = self.report("rotor", "--max-size", f"{limit:.4f}", out="thinned")
+        self.assertLessEqual(len(html.encode()), limit * 1e6)
+        self.assertLess(len(data["mesh"]["frames"]), 13)
+        self.assertIn("frames, to keep the page below", " ".join(data["notes"]))
+        frames = self.meshes(html, data)
+        self.assertEqual(frames[-1][1], read_vtu(self.folder / "rotor/mesh_000012.vtu")[1])
+        done = program("report", self.folder / "rotor", "-o", self.folder / "x.html", "--max-size", "0.05")
+        self.assertEqual((done.returncode, (self.folder / "x.html").exists()), (2, False))
+        self.assertIn("--max-size 0.05: the plots alone need 0.", done.stderr)
+
+    def test_what_is_not_there_is_told(self):
+        for name, word in (("none", "No step has been made"), ("no_meshes", "No meshes to play"), ("series", "patches = true")):
+            _, data = self.report(name)
+            self.assertIn(word, " ".join(data["notes"]))
+        (self.folder / "empty").mkdir(exist_ok=True)
+        for folder, word in (("empty", "expected in this folder"), ("nowhere", "a folder expected")):
+            done = program("report", self.folder / folder)
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, rf"^kinemesh: .*{folder}: .*{word}\n$")
+
+    def test_damaged_files_are_named(self):
+        for file, content, word in (("steps.csv", "step,time\n1,2\n", "steps.csv:1: a column faces expected"),
+                                    ("steps.csv", None, "steps.csv:4: "), ("patches.bin", "no", "patches.bin: is no")):
+            shutil.copytree(self.folder / "rotor", self.folder / "damaged", dirs_exist_ok=True)
+            path = self.folder / "damaged" / file
+            if content is None:
+                lines = path.read_text().split("\n")
+                content = "\n".join(lines[:3] + ["1,2"] + lines[3:])
+            path.write_text(content)
+            done = program("report", self.folder / "damaged")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(word, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_the_reader_in_examples_reads_patches(self):
+        done = subprocess.run(["python3", ROOT / "examples/read_patches.py", self.folder / "rotor/patches.bin"],
+                              capture_output=True, text=True, check=True)
+        lines = done.stdout.splitlines()
+        self.assertEqual(len(lines), 13)
+        header, *rows = [line.split(",") for line in (self.folder / "rotor/steps.csv").read_text().split("\n")[:-1]]
+        for line, row in zip(lines[1:], rows):
+            inverted, left = re.search(r"(\d+) inverted.* (\d+) left", line).groups()
+            self.assertEqual(left, "0")
+            self.assertLessEqual(int(inverted), int(row[header.index("inverted")]))  # that counts padding, too
+        self.assertIn(" inverted", lines[-1])
+
+    @unittest.skipUnless(shutil.which("npm"), "npm is not here")
+    def test_the_page_is_what_its_sources_make(self):
+        web = self.folder / "web"
+        shutil.copytree(WEB, web, ignore=shutil.ignore_patterns("node_modules", "report.html"))
+        if not npm("ci", "--no-audit", "--no-fund", cwd=web):
+            self.skipTest("npm has no way to its packages")
+        subprocess.run(["node", "build.mjs"], cwd=web, check=True)
+        self.assertEqual((web / "report.html").read_bytes(), (WEB / "report.html").read_bytes())
+
+    @unittest.skipUnless(CHROMIUM and shutil.which("npm"), "chromium, node and npm are not all here")
+    def test_the_page_in_a_browser(self):
+        MODULES.mkdir(parents=True, exist_ok=True)
+        here = ROOT / "tests/report"
+        for name in ("package.json", "package-lock.json", "browser_test.mjs"):
+            shutil.copy(here / name, MODULES)
+        shutil.copytree(here / "reference", MODULES / "reference", dirs_exist_ok=True)
+        if not npm("ci", "--no-audit", "--no-fund", "--prefer-offline", cwd=MODULES):
+            self.skipTest("npm has no way to its packages")
+        for name in ("rotor", "one", "none", "many", "no_meshes", "series", "bench"):
+            self.report(name)
+        self.test_a_page_keeps_to_its_size()
+        command = ["node", "browser_test.mjs", CHROMIUM, str(self.folder)]
+        done = subprocess.run(command, cwd=MODULES, capture_output=True, text=True, check=False)
+        if "KINEMESH_KEEP_PICTURES" in os.environ:
+            shutil.copytree(self.folder, os.environ["KINEMESH_KEEP_PICTURES"], dirs_exist_ok=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
