@@ -2,6 +2,7 @@ set(KINEMESH_GEOMETRY_SOURCES
   exact.cpp
   predicates.cpp
   refine.cpp
+  safe_step.cpp
   shapes.cpp
   shapes_graded.cpp
   shapes_random.cpp

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
+#include "core/safe_step.h"
 #include "sim/cli/check_report.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/mesh_arguments.h"
@@ -15,6 +18,7 @@ using Json = nlohmann::ordered_json;
 
 struct CheckArguments {
   MeshInput mesh;
+  std::string toward;  // the mesh after a step
   bool json = false;
 };
 
@@ -59,6 +63,37 @@ Json to_json(const Defect& defect) {
           {"message", defect.message()}};
 }
 
+// The query of --toward: how much of the way to the other file's positions no face is flat on.
+struct Way {
+  std::string path;
+  std::optional<SafeStep> first;  // nothing: all of it
+};
+
+Way way_to(const CheckArguments& arguments, const MeshData& from) {
+  const MeshInput toward{arguments.toward, arguments.mesh.split_quads};
+  const MeshData to = read(toward);
+  if (to.n_vertices() != from.n_vertices())
+    throw InputError(arguments.toward, 0,
+                     fmt::format("{} vertices, {} as in {} expected", to.n_vertices(), from.n_vertices(),
+                                 arguments.mesh.path));
+  return {arguments.toward, max_safe_step(from.triangles, from.points, to.points)};
+}
+
+// The shortest decimal that reads back as the same number.
+void print_way(const Way& way) {
+  if (way.first)
+    fmt::print("safe step toward {}: {} of it, then face {} is flat\n", way.path, way.first->share,
+               way.first->face);
+  else
+    fmt::print("safe step toward {}: all of it\n", way.path);
+}
+
+Json to_json(const Way& way) {
+  return {{"toward", way.path},
+          {"max_safe_step", way.first ? way.first->share : 1.0},
+          {"first_flat_face", way.first ? Json(way.first->face) : Json(nullptr)}};
+}
+
 Json to_json(const std::string& path, const CheckReport& report) {
   Json markers = Json::array(), culprits = Json::array();
   for (const MarkerCount& marker : report.markers)
@@ -82,12 +117,17 @@ Json to_json(const std::string& path, const CheckReport& report) {
 }
 
 int check_mesh(const CheckArguments& arguments) {
-  const CheckReport report = check(read(arguments.mesh));
-  if (arguments.json)
-    fmt::print("{}\n",
-               to_json(arguments.mesh.path, report).dump(2, ' ', false, Json::error_handler_t::replace));
-  else
+  const MeshData data = read(arguments.mesh);
+  const CheckReport report = check(data);
+  const auto way = arguments.toward.empty() ? std::nullopt : std::optional(way_to(arguments, data));
+  if (arguments.json) {
+    Json json = to_json(arguments.mesh.path, report);
+    if (way) json.update(to_json(*way));
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
     print_table(arguments.mesh.path, report);
+    if (way) print_way(*way);
+  }
   return report.valid ? done : not_valid;
 }
 
@@ -98,6 +138,8 @@ void add_check(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("check", "Say whether a mesh is valid, and measure it");
   add_mesh_input(command, arguments->mesh);
   command.add_flag("--json", arguments->json, "Print one JSON object instead of a table");
+  command.add_option("--toward", arguments->toward,
+                     "Say how much of a linear motion to this mesh's positions no face is flat on");
   command.footer(
       "Exit code 1 if the mesh is not valid: inverted or flat faces, borders that cross or touch, parts\n"
       "that overlap, or a marker's edge that no face has.\n"
@@ -107,6 +149,7 @@ void add_check(CLI::App& program, Action& action) {
       "\"markers\": [{\"name\", \"edges\"}], \"min_angle_deg\", \"min_area\",\n"
       "\"culprits\": [{\"kind\", \"faces\", \"vertices\", \"edges\": [[from, to]], \"where\": [x, y], "
       "\"message\"}]}\n"
+      "with --toward also \"toward\", \"max_safe_step\" from 0 to 1, \"first_flat_face\" or null.\n"
       "Culprits are the first of each kind. Face and vertex numbers: order in the file, from 0.");
   command.callback([arguments, &action] { action = [arguments] { return check_mesh(*arguments); }; });
 }

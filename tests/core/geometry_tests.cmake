@@ -2,4 +2,5 @@ set(KINEMESH_GEOMETRY_TESTS
   exact_oracle.cpp
   predicates_test.cpp
   contacts_test.cpp
+  safe_step_test.cpp
   shapes_test.cpp)

@@ -55,6 +55,23 @@ TEST_F(Check, TangledGridNamesItsFaces) {
   EXPECT_EQ(json["culprits"][1]["faces"], Json({8}));
 }
 
+// Vertex 5 = (1, 1) goes to (3, 1): halfway it is at vertex 6 = (2, 1), with which it has faces 3 and 8.
+TEST_F(Check, TowardAnotherMesh) {
+  const auto from = write("from.off", grid_off(3)), to = write("to.off", grid_off(3, {{5, 3.0, 1.0}}));
+  const Json json = Json::parse(run({"check", from, "--toward", to, "--json"}).out);
+  EXPECT_EQ(json["max_safe_step"], 0.5);
+  EXPECT_EQ(json["first_flat_face"], 3);
+  const Result table = run({"check", from, "--toward", to});
+  EXPECT_EQ(table.code, 0);
+  EXPECT_NE(table.out.find(": 0.5 of it, then face 3 is flat"), std::string::npos) << table.out;
+  const Json all = Json::parse(run({"check", from, "--toward", from, "--json"}).out);
+  EXPECT_EQ(all["max_safe_step"], 1.0);
+  EXPECT_TRUE(all["first_flat_face"].is_null());
+  expect_error(run({"check", from, "--toward", write("small.off", grid_off(2))}), 2,
+               {"small.off: 9 vertices, 16"});
+  expect_error(run({"check", from, "--toward", "none.off"}), 2, {"none.off"});
+}
+
 TEST_F(Check, OnlyTheFirstCulpritsAreNamed) {
   const Json json =
       check(write("grid.off", grid_off(8, {{20, 6.5, 3.5}, {50, 1.4, 2.7}, {41, 7.5, 7.25}})), 1);
