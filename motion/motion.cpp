@@ -84,7 +84,7 @@ void Motion::advance(std::span<const Point> x0, double t, double dt, std::uint64
     });
     return;
   }
-  const NoiseCut cut(x0, constrained_, fill_noise(dt, step, x1));
+  const NoiseCut cut(x0, constrained_, fill_noise(dt, step, x1), 1e-3 * spacing_);
   parallel_parts(n, grain, [&](int, int begin, int end) {
     for (int v = begin; v < end; ++v) x1[v] = moved(x0[v], smooth_way(v, x0[v], t, dt) + cut(x0[v], x1[v]));
   });

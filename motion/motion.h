@@ -31,7 +31,8 @@ class Motion {
 
   // One step: x1 = x0 + d(X, t + dt) - d(X, t) + the integrated velocities + noise, each term by its weight
   // at the vertex. Velocities are summed and integrated together. Noise is cut to half the distance to the
-  // nearest constrained edge at x0: alone it never leaves the domain. What has weight 0 and what does not
+  // nearest constrained edge at x0, and left out where it would bring the vertex nearer to one than a
+  // thousandth of the spacing: alone it never leaves the domain. What has weight 0 and what does not
   // move keeps its position bit by bit. Pre: x0 and x1 have the mesh's number of vertices and do not overlap.
   // step: from 0, it keys the noise. In parallel (TBB); the same bits whatever the number of threads. x1 may
   // be non-finite: the caller checks.

@@ -16,8 +16,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-NoiseCut::NoiseCut(std::span<const Point> points, std::span<const Edge> edges, double longest)
-    : edges_(points, edges) {
+NoiseCut::NoiseCut(std::span<const Point> points, std::span<const Edge> edges, double longest, double closest)
+    : edges_(points, edges), closest_(closest) {
   const double reach = 2.0 * longest * slack;
   all_near_ = !std::isfinite(reach);
   if (edges.empty() || !(reach > 0.0) || all_near_) return;
@@ -38,8 +38,11 @@ NoiseCut::NoiseCut(std::span<const Point> points, std::span<const Edge> edges, d
 
 Point NoiseCut::operator()(const Point& x, const Point& noise) const {
   if (!is_near(x)) return noise;
-  const double length = glm::length(noise), most = 0.5 * edges_.distance(x);
-  return length <= most ? noise : noise * (most / length);
+  const double length = glm::length(noise), distance = edges_.distance(x), most = 0.5 * distance;
+  const Point way = length <= most ? noise : noise * (most / length);
+  // Half the distance at most is left.
+  if (distance >= 2.0 * closest_ || edges_.distance(x + way) >= std::min(distance, closest_)) return way;
+  return {0.0, 0.0};
 }
 
 // Row by row, the cells within reach of the part of the segment that is within reach of the row.

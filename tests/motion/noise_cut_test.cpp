@@ -113,6 +113,32 @@ TEST(NoiseCut, NeverCrossesAnEdge) {
   }
 }
 
+// Thousands of kicks, each cut, would halve a distance to nothing; none comes closer than it may.
+TEST(NoiseCut, KeepsAVertexFromGatheringOnAnEdge) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> angle(0, 6.3);
+  const std::vector<Point> points{{0.0, 0.0}, {3.0, 1.0}};
+  const std::vector<Edge> edges{{0, 1}};
+  const NoiseCut cut(points, edges, 0.1, 1e-4), unlimited(points, edges, 0.1);
+  Point x(1.0, 0.5), y = x, z(1.5, 0.5 + 1e-6);
+  double nearest = 1.0;
+  int closer = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double a = angle(random);
+    const Point noise = 0.1 * Point(std::cos(a), std::sin(a));
+    x += cut(x, noise);
+    nearest = std::min(nearest, distance_to_segment(x, points[0], points[1]));
+    closer += distance_to_segment(x, points[0], points[1]) < 2e-4;
+    if (i < 500) y += unlimited(y, noise);
+    const double before = distance_to_segment(z, points[0], points[1]);
+    z += cut(z, noise);
+    EXPECT_GE(distance_to_segment(z, points[0], points[1]), std::min(before, 1e-4) * (1 - 1e-9));
+  }
+  EXPECT_GE(nearest, 1e-4 * (1 - 1e-9));
+  EXPECT_GT(closer, 100);
+  EXPECT_LT(distance_to_segment(y, points[0], points[1]), 1e-8);
+}
+
 TEST(NoiseCut, LetsEverythingPassWithoutEdges) {
   EXPECT_EQ(NoiseCut({}, {}, 1.0)({3.0, 4.0}, {1.0, 0.0}), Point(1.0, 0.0));
 }
