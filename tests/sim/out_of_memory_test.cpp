@@ -96,6 +96,7 @@ TEST_P(OutOfMemory, UndoesTheStepWhereverItHappens) {
     ASSERT_EQ(stepper.steps_done(), 0);
   }
   EXPECT_GT(failures, 20);
+  RecordProperty("failures", failures);
   EXPECT_EQ(snapshot(stepper.mesh()), snapshot(undisturbed.mesh()));
   EXPECT_FALSE(validate(stepper.mesh()));
   if (quality == std::string("delaunay")) {
@@ -105,7 +106,7 @@ TEST_P(OutOfMemory, UndoesTheStepWhereverItHappens) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, OutOfMemory,
-                         testing::Combine(testing::Values("global", "local", "remesh"),
+                         testing::Combine(testing::Values("global", "local", "remesh", "auto"),
                                           testing::Values("none", "delaunay", "smooth")),
                          [](const auto& param) {
                            return std::string(std::get<0>(param.param)) + "_" + std::get<1>(param.param);
