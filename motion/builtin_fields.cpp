@@ -6,6 +6,7 @@
 #include "motion/expression.h"
 #include "motion/noise.h"
 #include "motion/rigid.h"
+#include "motion/sampled_grid.h"
 #include "motion/vortical.h"
 
 namespace kinemesh {
@@ -139,12 +140,23 @@ std::vector<RegisteredField> formula_fields() {
   };
 }
 
+std::vector<RegisteredField> file_fields() {
+  return {
+      {{"grid",
+        "velocity sampled on a rectilinear grid, bilinear between samples",
+        {{"file", Kind::File, "table of t,x,y,u,v or x,y,u,v"}}},
+       [](const Parameters& p) {
+         return std::make_shared<SampledGrid>(std::filesystem::path(p.text("file")));
+       }},
+  };
+}
+
 }  // namespace
 
 std::vector<RegisteredField> builtin_fields() {
   std::vector<RegisteredField> all;
   for (const auto& group :
-       {rigid_fields(), vortical_fields(), body_fields(), noise_fields(), formula_fields()})
+       {rigid_fields(), vortical_fields(), body_fields(), noise_fields(), formula_fields(), file_fields()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
 }

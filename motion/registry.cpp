@@ -33,6 +33,8 @@ const char* expectation(ParameterKind kind) {
       return "an integer that is not negative";
     case ParameterKind::Text:
       return "a text";
+    case ParameterKind::File:
+      return "the name of a file";
   }
   return "";
 }
@@ -76,6 +78,8 @@ bool fits(ParameterKind kind, const ParameterValue& value) {
       return std::holds_alternative<std::int64_t>(value) && std::get<std::int64_t>(value) >= 0;
     case ParameterKind::Text:
       return std::holds_alternative<std::string>(value);
+    case ParameterKind::File:
+      return std::holds_alternative<std::string>(value) && !std::get<std::string>(value).empty();
   }
   return false;
 }

@@ -22,6 +22,7 @@ enum class ParameterKind {
   Size,               // [width, height] or one number for both; > 0
   Seed,               // integer >= 0
   Text,
+  File,  // a text; relative to the scenario's folder, absolute for the field
 };
 
 struct ParameterInfo {
@@ -51,7 +52,7 @@ class CheckedParameters {
   double number(std::string_view name) const;
   Point point(std::string_view name) const;  // Vector, Direction and Size
   std::uint64_t seed(std::string_view name) const;
-  const std::string& text(std::string_view name) const;
+  const std::string& text(std::string_view name) const;  // Text and File
 
  private:
   FieldParameters values_;

@@ -109,7 +109,20 @@ void add_defaults(MotionSpec& motion) {
   }
 }
 
-MotionSpec read_motion(const toml::table& source) {
+// Files are named relative to the scenario.
+void resolve_files(const std::filesystem::path& folder, MotionSpec& motion) {
+  for (const auto& field : fields()) {
+    if (field.name != motion.field) continue;
+    for (const auto& parameter : field.parameters) {
+      const auto given = motion.parameters.find(parameter.name);
+      if (parameter.kind != ParameterKind::File || given == motion.parameters.end()) continue;
+      if (auto* name = std::get_if<std::string>(&given->second); name && !name->empty())
+        *name = (folder / *name).lexically_normal().string();
+    }
+  }
+}
+
+MotionSpec read_motion(const toml::table& source, const std::filesystem::path& folder) {
   TomlTable table(source, "[[motion]]");
   MotionSpec motion;
   motion.where = table.where();
@@ -122,14 +135,15 @@ MotionSpec read_motion(const toml::table& source) {
   read_blend(table, motion);
   for (const auto& key : table.keys())
     if (key != "field" && key != "on" && key != "blend") motion.parameters.emplace(key, *table.value(key));
+  resolve_files(folder, motion);
   check_motion(motion);
   add_defaults(motion);
   return motion;
 }
 
-std::vector<MotionSpec> read_motions(TomlTable& root) {
+std::vector<MotionSpec> read_motions(TomlTable& root, const std::filesystem::path& folder) {
   std::vector<MotionSpec> motions;
-  for (const auto* table : root.tables("motion")) motions.push_back(read_motion(*table));
+  for (const auto* table : root.tables("motion")) motions.push_back(read_motion(*table, folder));
   if (motions.empty()) throw error_at(root.where(), "at least one [[motion]] expected");
   return motions;
 }
@@ -229,8 +243,9 @@ Scenario read_scenario(const toml::table& document, const std::filesystem::path&
   root.refuse_other_keys();
   for (const std::string_view key : {"mesh", "time"})
     if (!root.has(key)) throw error_at(root.where(), "[" + std::string(key) + "] expected");
-  scenario.mesh = read_mesh_spec(mesh, std::filesystem::absolute(file).parent_path());
-  scenario.motions = read_motions(root);
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  scenario.mesh = read_mesh_spec(mesh, folder);
+  scenario.motions = read_motions(root, folder);
   scenario.border = read_border(border);
   scenario.time = read_time(time);
   scenario.repair = read_repair(repair);

@@ -55,6 +55,8 @@ const char* spelling(ParameterKind kind) {
       return "integer >= 0";
     case ParameterKind::Text:
       return "text";
+    case ParameterKind::File:
+      return "file";
   }
   return "";
 }

@@ -43,16 +43,18 @@ ParameterValue sample(const ParameterInfo& parameter) {
 TEST(Registry, MakesEveryFieldUnderItsName) {
   std::vector<std::string> names;
   for (const auto& info : fields()) {
+    names.push_back(info.name);
+    EXPECT_FALSE(info.description.empty());
+    const auto is_file = [](const ParameterInfo& p) { return p.kind == ParameterKind::File; };
+    if (std::any_of(info.parameters.begin(), info.parameters.end(), is_file)) continue;  // own tests
     FieldParameters required;
     for (const auto& parameter : info.parameters)
       if (!parameter.otherwise) required.emplace(parameter.name, sample(parameter));
     EXPECT_EQ(name_of(make_field(info.name, required)), info.name);
-    EXPECT_FALSE(info.description.empty());
-    names.push_back(info.name);
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"rotation", "pitch", "plunge", "translate", "shear", "swirl",
                                             "taylor-green", "gresho", "twist", "rotor", "jitter", "brownian",
-                                            "expression", "displacement", "zalesak"}));
+                                            "expression", "displacement", "zalesak", "grid"}));
 }
 
 TEST(Registry, HandsParametersOver) {
