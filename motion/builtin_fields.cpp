@@ -5,6 +5,7 @@
 #include "motion/body.h"
 #include "motion/expression.h"
 #include "motion/noise.h"
+#include "motion/plugin_field.h"
 #include "motion/rigid.h"
 #include "motion/sampled_grid.h"
 #include "motion/vortical.h"
@@ -148,6 +149,11 @@ std::vector<RegisteredField> file_fields() {
        [](const Parameters& p) {
          return std::make_shared<SampledGrid>(std::filesystem::path(p.text("file")));
        }},
+      {{"plugin",
+        "a motion from a shared library (motion/plugin.h); further parameters are the plug-in's own",
+        {{"library", Kind::File, "shared library"}},
+        true},
+       [](const Parameters& p) { return make_plugin_field(p.text("library"), p.others()); }},
   };
 }
 

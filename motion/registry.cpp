@@ -95,13 +95,14 @@ std::string names_of(const Items& items) {
   throw ParameterError(key, fmt::format("field \"{}\": {}", field.name, why));
 }
 
-void refuse_unknown(const FieldInfo& info, const FieldParameters& given) {
-  for (const auto& [name, value] : given) {
-    const std::string& key = name;  // a lambda cannot capture a binding in clang 14
+// Those that the field does not list.
+FieldParameters unlisted(const FieldInfo& info, const FieldParameters& given) {
+  FieldParameters others;
+  for (const auto& parameter : given)
     if (std::none_of(info.parameters.begin(), info.parameters.end(),
-                     [&](const auto& p) { return p.name == key; }))
-      refuse(info, key, "unknown parameter " + key + ", expected " + names_of(info.parameters));
-  }
+                     [&](const auto& p) { return p.name == parameter.first; }))
+      others.insert(parameter);
+  return others;
 }
 
 }  // namespace
@@ -114,7 +115,11 @@ std::string to_string(const ParameterValue& value) {
 }
 
 CheckedParameters::CheckedParameters(const FieldInfo& info, const FieldParameters& given) {
-  refuse_unknown(info, given);
+  others_ = unlisted(info, given);
+  if (!others_.empty() && !info.takes_others) {
+    const std::string& key = others_.begin()->first;
+    refuse(info, key, "unknown parameter " + key + ", expected " + names_of(info.parameters));
+  }
   for (const auto& [name, kind, meaning, otherwise] : info.parameters) {
     const auto found = given.find(name);
     if (found == given.end() && !otherwise)

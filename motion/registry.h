@@ -36,6 +36,7 @@ struct FieldInfo {
   std::string name;
   std::string description;
   std::vector<ParameterInfo> parameters;
+  bool takes_others = false;  // hands on parameters that are not listed, whatever they are
 };
 
 // As a scenario writes it: 0.5, [0.5, 0.5], "x + y".
@@ -53,9 +54,10 @@ class CheckedParameters {
   Point point(std::string_view name) const;  // Vector, Direction and Size
   std::uint64_t seed(std::string_view name) const;
   const std::string& text(std::string_view name) const;  // Text and File
+  const FieldParameters& others() const { return others_; }  // those not listed, as given
 
  private:
-  FieldParameters values_;
+  FieldParameters values_, others_;
 };
 
 using FieldFactory = std::function<AnyField(const CheckedParameters&)>;

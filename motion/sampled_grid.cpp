@@ -60,7 +60,7 @@ class GridReader {
     double values[5] = {};
     int n = 0;
     do {
-      values[n++] = scanner_.number_here("a number");
+      values[n++] = scanner_.number_here("one of t,x,y,u,v");
     } while (n < 5 && !scanner_.at_line_end());
     if (n == 5) scanner_.expect_line_end("t,x,y,u,v");
     if (columns_ == 0 && n >= 4) columns_ = n;

@@ -54,7 +54,7 @@ TEST(Registry, MakesEveryFieldUnderItsName) {
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"rotation", "pitch", "plunge", "translate", "shear", "swirl",
                                             "taylor-green", "gresho", "twist", "rotor", "jitter", "brownian",
-                                            "expression", "displacement", "zalesak", "grid"}));
+                                            "expression", "displacement", "zalesak", "grid", "plugin"}));
 }
 
 TEST(Registry, HandsParametersOver) {
