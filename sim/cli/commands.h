@@ -20,6 +20,7 @@ enum ExitCode : int {
 using Action = std::function<int()>;
 
 void add_list(CLI::App& program, Action& action);
+void add_bench(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
 void add_convert(CLI::App& program, Action& action);
 void add_untangle(CLI::App& program, Action& action);

@@ -94,6 +94,7 @@ int run_program(int argc, char** argv) {
       "2 bad input or usage.");
   add_run(program, action, {argv, argv + argc});
   add_replay(program, action);
+  add_bench(program, action);
   add_check(program, action);
   add_untangle(program, action);
   add_convert(program, action);

@@ -1,0 +1,121 @@
+#include "sim/bench.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "core/validate.h"
+#include "sim/run.h"
+#include "sim/setup.h"
+
+namespace kinemesh {
+namespace {
+
+class Competitor {
+ public:
+  Competitor(const std::string& strategy, const RepairSpec& repair, const Mesh& mesh)
+      : options_{strategy, repair.allow_escaped, repair.retain, repair.quality}, stepper_(mesh, options_) {}
+
+  const std::string& strategy() const { return options_.strategy; }
+  const Mesh& mesh() const { return stepper_.mesh(); }
+
+  StepOutcome step(std::span<const Point> positions, double dt) {
+    auto outcome = stepper_.step(positions, dt);
+    if (const auto defect = outcome ? validate(mesh()) : std::nullopt)
+      throw std::logic_error("strategy " + strategy() + " leaves " + defect->message() + " at step " +
+                             std::to_string(outcome.record.step));
+    return outcome;
+  }
+
+  void follow(const Competitor& other) {
+    stepper_ = Stepper(other.mesh(), options_, other.stepper_.time(), other.stepper_.steps_done());
+  }
+
+ private:
+  StepperOptions options_;
+  Stepper stepper_;
+};
+
+class Contest {
+ public:
+  Contest(const Scenario& scenario, std::span<const std::string> strategies, SetUp set_up)
+      : time_(scenario.time),
+        motion_(std::move(set_up.motion)),
+        mesh_(std::move(set_up.mesh)),
+        now_(mesh_.positions().begin(), mesh_.positions().end()),
+        next_(now_) {
+    for (const auto& strategy : strategies) competitors_.emplace_back(strategy, scenario.repair, mesh_);
+  }
+
+  std::optional<std::string> run(const std::function<void(const Round&)>& tell) {
+    for (int step = 1; step <= time_.steps; ++step) {
+      if (auto why = do_step(step, tell)) return why;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<std::string> do_step(int step, const std::function<void(const Round&)>& tell) {
+    const double t = time_.time_after(step - 1), dt = time_.time_after(step) - t;
+    motion_.advance(now_, t, dt, static_cast<std::uint64_t>(step - 1), next_);
+    std::vector<StepOutcome> outcomes;
+    for (auto& competitor : competitors_) outcomes.push_back(competitor.step(in_user_order(next_), dt));
+    const auto valid = std::find_if(outcomes.begin(), outcomes.end(), [](const auto& o) { return bool(o); });
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      if (!outcomes[i] && valid != outcomes.end())
+        competitors_[i].follow(competitors_[valid - outcomes.begin()]);
+      tell({competitors_[i].strategy(), outcomes[i].record, competitors_[i].mesh()});
+    }
+    if (valid == outcomes.end()) return why_stopped(outcomes.front());
+    std::swap(now_, next_);
+    return std::nullopt;
+  }
+
+  std::vector<Point> in_user_order(const std::vector<Point>& positions) const {
+    std::vector<Point> all(mesh_.n_user_vertices());
+    for (int user = 0; user < mesh_.n_user_vertices(); ++user)
+      all[user] = positions[mesh_.vertex_of_user(user)];
+    return all;
+  }
+
+  TimeSpec time_;
+  Motion motion_;
+  Mesh mesh_;                      // as it was at first
+  std::vector<Point> now_, next_;  // the common positions, in its numbering
+  std::vector<Competitor> competitors_;
+};
+
+// Where the text is cut: at commas that stand in no brackets and no quotes.
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  bool is_quoted = false;
+  for (const char c : text) {
+    is_quoted ^= c == '"';
+    if (!is_quoted) depth += (c == '[') - (c == ']');
+    if (c == ',' && depth == 0 && !is_quoted)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::optional<std::string> compare_strategies(const Scenario& scenario,
+                                              std::span<const std::string> strategies,
+                                              const std::function<void(const Round&)>& tell) {
+  return Contest(scenario, strategies, set_up(scenario)).run(tell);
+}
+
+Sweep parse_sweep(const std::string& text) {
+  const auto equals = text.find('=');
+  const auto refuse = [&] { throw InputError("--sweep " + text + ": key=value,value,... expected"); };
+  if (equals == std::string::npos || equals == 0) refuse();
+  Sweep sweep{text.substr(0, equals), parts_of(text.substr(equals + 1))};
+  if (std::ranges::find(sweep.values, "") != sweep.values.end()) refuse();
+  return sweep;
+}
+
+}  // namespace kinemesh

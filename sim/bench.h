@@ -1,0 +1,43 @@
+// Strategies side by side: each makes the same moved mesh valid again, step after step.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/scenario.h"
+#include "sim/stepper.h"
+
+namespace kinemesh {
+
+// What one strategy did at one step, and the mesh it left, which has been validated outside what is timed.
+struct Round {
+  const std::string& strategy;
+  const StepRecord& record;
+  const Mesh& mesh;
+};
+
+// Runs the scenario once for all strategies, in the place of its own. At each step the motion takes the common
+// positions of the step before, whatever the strategies have made of the mesh, and each strategy is given the
+// result; its own mesh differs from the others' by its connectivity only. One that finds no valid mesh where
+// another does goes on with a copy of the other's mesh; its round is not accepted. Steps are timed one after
+// the other, in turn. Calls `tell` for each round, and returns why it ended early, if it did: no strategy had
+// a valid mesh. Throws InputError for unknown strategies and for what set_up (sim/setup.h) refuses,
+// std::logic_error for a mesh that a strategy claims to be valid and is not.
+std::optional<std::string> compare_strategies(const Scenario& scenario,
+                                              std::span<const std::string> strategies,
+                                              const std::function<void(const Round&)>& tell);
+
+// The values a key of the scenario takes one after the other: "motion.0.amplitude=0.01,0.1".
+struct Sweep {
+  std::string key;
+  std::vector<std::string> values;  // as in --set; commas within brackets and quotes do not part them
+};
+
+// Throws InputError for a text that is none.
+Sweep parse_sweep(const std::string& text);
+
+}  // namespace kinemesh
