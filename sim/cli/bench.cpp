@@ -196,7 +196,7 @@ void add_bench(CLI::App& program, Action& action) {
       ->required()
       ->delimiter(',');
   command.add_option("--sweep", arguments->sweep,
-                     "Do it for several values of a key: key=v1,v2, as in motion.0.amplitude=0.01,0.1");
+                     "For several values of a key: key=v1,v2, as in time.dt=0.1,0.2");
   command.add_option("-o,--output", arguments->directory,
                      "Folder for the results; default: the scenario's name and -bench");
   command

@@ -22,17 +22,15 @@ TEST_F(Usage, VersionIsTheProjects) {
   EXPECT_EQ(result.err, "");
 }
 
-TEST_F(Usage, HelpNamesEveryCommandAndNoneThatIsNotThere) {
+TEST_F(Usage, HelpNamesEveryCommand) {
   const Result result = run({"--help"});
   EXPECT_EQ(result.code, 0);
-  for (const char* command : {"run", "check", "untangle", "convert", "list"})
+  for (const char* command : {"run", "replay", "bench", "report", "check", "untangle", "convert", "list"})
     EXPECT_TRUE(has(result.out, std::string("\n  ") + command + " ")) << command;
-  for (const char* command : {"bench", "report", "draw"})
-    EXPECT_FALSE(has(result.out, std::string("\n  ") + command + " ")) << command;
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {
-  for (const char* command : {"run", "check", "untangle", "convert", "list"}) {
+  for (const char* command : {"run", "replay", "bench", "report", "check", "untangle", "convert", "list"}) {
     const Result result = run({command, "--help"});
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_TRUE(has(result.out, "Usage: kinemesh " + std::string(command))) << result.out;
