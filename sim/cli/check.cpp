@@ -139,7 +139,7 @@ void add_check(CLI::App& program, Action& action) {
   add_mesh_input(command, arguments->mesh);
   command.add_flag("--json", arguments->json, "Print one JSON object instead of a table");
   command.add_option("--toward", arguments->toward,
-                     "Say how much of a linear motion to this mesh's positions no face is flat on");
+                     "Say how much of the way to this mesh's positions is safe");
   command.footer(
       "Exit code 1 if the mesh is not valid: inverted or flat faces, borders that cross or touch, parts\n"
       "that overlap, or a marker's edge that no face has.\n"
