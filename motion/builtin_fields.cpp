@@ -71,6 +71,16 @@ std::vector<RegisteredField> rigid_fields() {
   };
 }
 
+AnyField point_vortices(const Parameters& p) {
+  const auto& points = p.points("points");
+  const auto& strengths = p.numbers("strengths");
+  if (points.size() != strengths.size())
+    throw ParameterError("strengths", "field \"vortices\": " + std::to_string(strengths.size()) +
+                                          " strengths, expected one for each of the points, " +
+                                          std::to_string(points.size()));
+  return std::make_shared<PointVortices>(points, strengths, p.number("core"));
+}
+
 std::vector<RegisteredField> vortical_fields() {
   return {
       {{"swirl",
@@ -90,6 +100,12 @@ std::vector<RegisteredField> vortical_fields() {
        [](const Parameters& p) {
          return std::make_shared<Twist>(box(p), p.number("rate"), p.number("period"));
        }},
+      {{"vortices",
+        "point vortices that stay where they are, counter-clockwise",
+        {{"points", Kind::Points, "where they are"},
+         {"strengths", Kind::Numbers, "circulation of each, length^2 per time"},
+         {"core", Kind::PositiveNumber, "radius of the fastest ring around each, length"}}},
+       point_vortices},
   };
 }
 

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/types.h"
 
 namespace kinemesh {
 
 // An integer stands for a number wherever a number is expected.
-using ParameterValue = std::variant<double, std::int64_t, std::vector<double>, std::string>;
+using ParameterValue =
+    std::variant<double, std::int64_t, std::vector<double>, std::vector<Point>, std::string>;
 using FieldParameters = std::map<std::string, ParameterValue, std::less<>>;
 
 // A parameter that is unknown, missing, of the wrong type or out of range. what() is a whole sentence; key()

@@ -29,6 +29,10 @@ const char* expectation(ParameterKind kind) {
       return "[x, y], not both 0";
     case ParameterKind::Size:
       return "[width, height] or one number for both, greater than 0";
+    case ParameterKind::Numbers:
+      return "a list of numbers, [a, b, ...]";
+    case ParameterKind::Points:
+      return "a list of points, [[x, y], ...]";
     case ParameterKind::Seed:
       return "an integer that is not negative";
     case ParameterKind::Text:
@@ -41,6 +45,16 @@ const char* expectation(ParameterKind kind) {
 
 bool all_finite(const std::vector<double>& v) {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+}
+bool all_finite(const std::vector<Point>& v) {
+  return std::all_of(v.begin(), v.end(),
+                     [](const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); });
+}
+
+template <class List>
+bool fits_list(const ParameterValue& value) {
+  const auto* list = std::get_if<List>(&value);
+  return list && !list->empty() && all_finite(*list);
 }
 
 bool fits_pair(ParameterKind kind, const std::vector<double>& v) {
@@ -74,6 +88,10 @@ bool fits(ParameterKind kind, const ParameterValue& value) {
     case ParameterKind::Size:
       return std::holds_alternative<std::vector<double>>(value) &&
              fits_pair(kind, std::get<std::vector<double>>(value));
+    case ParameterKind::Numbers:
+      return fits_list<std::vector<double>>(value);
+    case ParameterKind::Points:
+      return fits_list<std::vector<Point>>(value);
     case ParameterKind::Seed:
       return std::holds_alternative<std::int64_t>(value) && std::get<std::int64_t>(value) >= 0;
     case ParameterKind::Text:
@@ -111,7 +129,12 @@ std::string to_string(const ParameterValue& value) {
   if (const auto* x = std::get_if<double>(&value)) return fmt::format("{}", *x);
   if (const auto* n = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *n);
   if (const auto* text = std::get_if<std::string>(&value)) return '"' + *text + '"';
-  return fmt::format("[{}]", fmt::join(std::get<std::vector<double>>(value), ", "));
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+    return fmt::format("[{}]", fmt::join(*numbers, ", "));
+  std::string list;
+  for (const Point& p : std::get<std::vector<Point>>(value))
+    list += fmt::format("{}[{}, {}]", list.empty() ? "" : ", ", p.x, p.y);
+  return "[" + list + "]";
 }
 
 CheckedParameters::CheckedParameters(const FieldInfo& info, const FieldParameters& given) {
@@ -141,6 +164,14 @@ double CheckedParameters::number(std::string_view name) const {
 Point CheckedParameters::point(std::string_view name) const {
   const auto& pair = std::get<std::vector<double>>(values_.find(name)->second);
   return {pair[0], pair[1]};
+}
+
+const std::vector<double>& CheckedParameters::numbers(std::string_view name) const {
+  return std::get<std::vector<double>>(values_.find(name)->second);
+}
+
+const std::vector<Point>& CheckedParameters::points(std::string_view name) const {
+  return std::get<std::vector<Point>>(values_.find(name)->second);
 }
 
 std::uint64_t CheckedParameters::seed(std::string_view name) const {

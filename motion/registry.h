@@ -20,6 +20,8 @@ enum class ParameterKind {
   Vector,             // [x, y], finite
   Direction,          // [x, y], not both 0
   Size,               // [width, height] or one number for both; > 0
+  Numbers,            // [a, b, ...], finite, at least one
+  Points,             // [[x, y], ...], finite, at least one
   Seed,               // integer >= 0
   Text,
   File,  // a text; relative to the scenario's folder, absolute for the field
@@ -52,6 +54,8 @@ class CheckedParameters {
   // Pre: the field has that parameter and it is of that kind.
   double number(std::string_view name) const;
   Point point(std::string_view name) const;  // Vector, Direction and Size
+  const std::vector<double>& numbers(std::string_view name) const;
+  const std::vector<Point>& points(std::string_view name) const;
   std::uint64_t seed(std::string_view name) const;
   const std::string& text(std::string_view name) const;  // Text and File
   const FieldParameters& others() const { return others_; }  // those not listed, as given

@@ -58,4 +58,13 @@ Point Twist::velocity(const Point& x, double t) const {
   return box_.to_user(0.5 * rate * Point(-p.y, p.x));
 }
 
+Point PointVortices::velocity(const Point& x, double) const {
+  Point sum(0.0, 0.0);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point r = x - points_[i];
+    sum += strengths_[i] / (glm::dot(r, r) + core_ * core_) * Point(-r.y, r.x);
+  }
+  return sum / (2.0 * pi);
+}
+
 }  // namespace kinemesh

@@ -1,6 +1,8 @@
-// Vortices that live in a box. On the unit square they are as published; a box of another size maps to it,
+// Vortices: point vortices, and such that live in a box. On the unit square they are as published; a box of another size maps to it,
 // and velocities grow with the box, so that the same times give the same motion relative to the box.
 #pragma once
+
+#include <vector>
 
 #include "motion/field.h"
 
@@ -65,6 +67,23 @@ class Twist final : public VelocityField {
   Box box_;
   double rate_;    // radians per time, at the centre and t = 0
   double period_;  // T > 0
+};
+
+// Point vortices that stay where they are, smoothed by a core: v = sum of s_i / (2 pi) (-(y - y_i), x - x_i) /
+// (|x - p_i|^2 + core^2) [Krasny 1987]. Counter-clockwise for s > 0; fastest, s / (4 pi core), at the
+// distance `core`; that of s / (2 pi r) far away. Free of divergence, steady.
+class PointVortices final : public VelocityField {
+ public:
+  // strengths: circulations, length^2 per time; core: length, > 0. Pre: points and strengths are as many.
+  PointVortices(std::vector<Point> points, std::vector<double> strengths, double core)
+      : points_(std::move(points)), strengths_(std::move(strengths)), core_(core) {}
+  std::string_view name() const override { return "vortices"; }
+  Point velocity(const Point& x, double t) const override;  // O(number of vortices)
+
+ private:
+  std::vector<Point> points_;
+  std::vector<double> strengths_;
+  double core_;
 };
 
 }  // namespace kinemesh

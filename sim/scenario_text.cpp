@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <array>
 #include <sstream>
 
 #include "sim/scenario.h"
@@ -30,6 +31,12 @@ std::string to_text(double number) {
 std::string to_text(std::span<const double> numbers) {
   std::string text;
   for (const double number : numbers) text += (text.empty() ? "" : ", ") + to_text(number);
+  return "[" + text + "]";
+}
+
+std::string to_text(const std::vector<Point>& points) {
+  std::string text;
+  for (const Point& p : points) text += (text.empty() ? "" : ", ") + to_text(std::array{p.x, p.y});
   return "[" + text + "]";
 }
 

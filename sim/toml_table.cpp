@@ -80,6 +80,17 @@ std::optional<std::vector<double>> as_numbers(const toml::array& list) {
   return numbers;
 }
 
+// The same for a list of points; an empty list is one of numbers.
+std::optional<std::vector<Point>> as_points(const toml::array& list) {
+  std::vector<Point> points;
+  for (const auto& element : list) {
+    const auto pair = element.is_array() ? as_numbers(*element.as_array()) : std::nullopt;
+    if (!pair || pair->size() != 2) return std::nullopt;
+    points.emplace_back((*pair)[0], (*pair)[1]);
+  }
+  return points;
+}
+
 }  // namespace
 
 Where where_of(const toml::node& node) {
@@ -152,9 +163,12 @@ std::optional<ParameterValue> TomlTable::value(std::string_view key) {
   if (const auto* text = node->as_string()) return text->get();
   if (const auto* integer = node->as_integer()) return integer->get();
   if (const auto number = as_finite(*node)) return *number;
-  if (const auto* list = node->as_array())
+  if (const auto* list = node->as_array()) {
     if (auto numbers = as_numbers(*list)) return std::move(*numbers);
-  fail(key, as_written(*node) + ", a finite number, a text or a list of numbers expected");
+    if (auto points = as_points(*list)) return std::move(*points);
+  }
+  fail(key,
+       as_written(*node) + ", a finite number, a text or a list of numbers or of points [x, y] expected");
 }
 
 const toml::table* TomlTable::table(std::string_view key) {

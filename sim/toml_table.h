@@ -34,7 +34,8 @@ class TomlTable {
                                       std::int64_t to = std::numeric_limits<std::int64_t>::max());
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::string> text(std::string_view key);
-  std::optional<ParameterValue> value(std::string_view key);  // a number, a text or a list of numbers
+  std::optional<ParameterValue> value(
+      std::string_view key);  // a number, a text, a list of numbers or of points
   const toml::table* table(std::string_view key);
   std::vector<const toml::table*> tables(std::string_view key);  // [[key]]; empty where absent
 

@@ -51,6 +51,10 @@ const char* spelling(ParameterKind kind) {
       return "[x, y], not both 0";
     case ParameterKind::Size:
       return "[width, height] or one number for both";
+    case ParameterKind::Numbers:
+      return "[a, b, ...]";
+    case ParameterKind::Points:
+      return "[[x, y], ...]";
     case ParameterKind::Seed:
       return "integer >= 0";
     case ParameterKind::Text:

@@ -115,6 +115,33 @@ TEST(Plunge, MovesAlongTheDirectionWhateverItsLength) {
   EXPECT_EQ(field.displacement({0.0, 0.0}, 0.0), Point(0.0, 0.0));
 }
 
+TEST(PointVortices, AloneTurnsAtTheClosedFormsSpeed) {
+  const double strength = 3.0, core = 0.2;
+  const PointVortices field({{1.0, -1.0}}, {strength}, core);
+  EXPECT_EQ(field.velocity({1.0, -1.0}, 0.0), Point(0.0, 0.0));
+  for (const double r : {0.01, core, 0.7, 50.0}) {
+    const double speed = strength * r / (2.0 * pi * (r * r + core * core));
+    expect_near(field.velocity({1.0 + r, -1.0}, r), {0.0, speed}, 1e-14);
+    expect_near(field.velocity({1.0, -1.0 - r}, r), {speed, 0.0}, 1e-14);
+    const double a = speed / r * 2.0;  // angle at time 2
+    expect_near(travel(field, {1.0 + r, -1.0}, 0.0, 2.0, 2000),
+                {1.0 + r * std::cos(a), -1.0 + r * std::sin(a)}, 1e-8);
+  }
+  EXPECT_DOUBLE_EQ(field.velocity({1.0 + core, -1.0}, 0.0).y, strength / (4.0 * pi * core));
+}
+
+TEST(PointVortices, AddUpAndTurnAgainstEachOtherByTheirSign) {
+  const std::vector<Point> points{{-0.5, 0.0}, {0.5, 0.0}};
+  const PointVortices pair(points, {1.0, -1.0}, 0.1);
+  expect_near(pair.velocity({0.0, 0.0}, 0.0), {0.0, 2.0 * 0.5 / (2.0 * pi * 0.26)}, 1e-15);
+  for (const Point& x : random_points(50, -1, 1)) {
+    const Point sum = PointVortices({points[0]}, {1.0}, 0.1).velocity(x, 0.0) +
+                      PointVortices({points[1]}, {-1.0}, 0.1).velocity(x, 0.0);
+    expect_near(pair.velocity(x, 0.0), sum, 1e-14);
+    EXPECT_NEAR(divergence(pair, x, 0.0), 0.0, 1e-7);
+  }
+}
+
 TEST(Swirl, HasLeVequesFormula) {
   const Swirl field({}, 8.0);
   for (const Point& x : random_points(100, 0, 1)) {

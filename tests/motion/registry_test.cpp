@@ -31,6 +31,10 @@ ParameterValue sample(const ParameterInfo& parameter) {
     case ParameterKind::Direction:
     case ParameterKind::Size:
       return std::vector<double>{2.0, 3.0};
+    case ParameterKind::Numbers:
+      return std::vector<double>{2.0};
+    case ParameterKind::Points:
+      return std::vector<Point>{{2.0, 3.0}};
     case ParameterKind::Seed:
       return std::int64_t{7};
     case ParameterKind::Text:
@@ -52,9 +56,10 @@ TEST(Registry, MakesEveryFieldUnderItsName) {
       if (!parameter.otherwise) required.emplace(parameter.name, sample(parameter));
     EXPECT_EQ(name_of(make_field(info.name, required)), info.name);
   }
-  EXPECT_THAT(names, testing::IsSupersetOf({"rotation", "pitch", "plunge", "translate", "shear", "swirl",
-                                            "taylor-green", "gresho", "twist", "rotor", "jitter", "brownian",
-                                            "expression", "displacement", "zalesak", "grid", "plugin"}));
+  EXPECT_THAT(names,
+              testing::IsSupersetOf({"rotation", "pitch", "plunge", "translate", "shear", "swirl",
+                                     "taylor-green", "gresho", "twist", "rotor", "jitter", "brownian",
+                                     "expression", "displacement", "zalesak", "grid", "plugin", "vortices"}));
 }
 
 TEST(Registry, HandsParametersOver) {
@@ -125,6 +130,14 @@ TEST(Registry, NamesTheFieldAndTheParameterThatIsWrong) {
   EXPECT_EQ(refusal("jitter", {{"amplitude", 0.1}, {"seed", 1.5}}).key, "seed");
   EXPECT_EQ(refusal("jitter", {{"amplitude", 0.1}, {"seed", std::int64_t{-1}}}).key, "seed");
   EXPECT_EQ(refusal("brownian", {{"diffusion", -0.1}}).key, "diffusion");
+  const ParameterValue two_points = std::vector<Point>{{0.0, 0.0}, {1.0, 0.0}}, one = origin[0];
+  r = refusal("vortices", {{"points", two_points}, {"strengths", std::vector<double>{1.0}}, {"core", 0.1}});
+  EXPECT_EQ(r.key, "strengths");
+  EXPECT_EQ(r.what, "field \"vortices\": 1 strengths, expected one for each of the points, 2");
+  EXPECT_EQ(refusal("vortices", {{"points", origin}, {"strengths", origin}, {"core", 0.1}}).key, "points");
+  EXPECT_EQ(refusal("vortices", {{"points", two_points}, {"strengths", one}, {"core", 0.1}}).key,
+            "strengths");
+  EXPECT_EQ(refusal("vortices", {{"points", two_points}, {"strengths", origin}, {"core", 0.0}}).key, "core");
   EXPECT_EQ(refusal("expression", {{"u", std::string("x")}, {"v", std::string("(")}}).key, "v");
   EXPECT_EQ(refusal("expression", {{"u", 1.0}, {"v", std::string("x")}}).key, "u");
 }
@@ -133,6 +146,7 @@ TEST(Registry, WritesValuesAsScenariosDo) {
   EXPECT_EQ(to_string(ParameterValue{0.1}), "0.1");
   EXPECT_EQ(to_string(ParameterValue{std::int64_t{3}}), "3");
   EXPECT_EQ(to_string(ParameterValue{std::vector<double>{0.5, 1.0}}), "[0.5, 1]");
+  EXPECT_EQ(to_string(ParameterValue{std::vector<Point>{{0.5, 1.0}, {2.0, 3.0}}}), "[[0.5, 1], [2, 3]]");
   EXPECT_EQ(to_string(ParameterValue{std::string("x + y")}), "\"x + y\"");
 }
 

@@ -171,6 +171,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Formula", "'swirl'", "'expression'\nv = '0'\nu = 'x +'", "a.toml:6: "},
         Mistake{"On", "[time]", "on = 'nowhere'\n[time]", "a.toml:5: on = \"nowhere\": expected all"},
         Mistake{"Blend", "[time]", "on = 'label:0'\nblend = [2, 1]\n[time]", "a.toml:6: blend needs"},
+        Mistake{"PointsOfThree", "[time]", "points = [[1, 2, 3]]\n[time]",
+                "a.toml:5: points: a list, a finite"},
         Mistake{"BlendOfThree", "[time]", "blend = [0, 1, 2]\n[time]",
                 "a.toml:5: blend: two distances expected"},
         Mistake{"Border", "[time]", "[border]\nleft = 'loose'\n[time]",
@@ -221,6 +223,7 @@ TEST(Scenario, SurvivesBeingWrittenOut) {
       "[[motion]]\nfield = 'rotation'\ncenter = [0.1, 1e-17]\nrate = 0.30000000000000004\n"
       "on = 'disc:[0,0,1]'\nblend = [0.1, 0.7]\n"
       "[[motion]]\nfield = 'expression'\nu = 'sin(x)*\"2\"'\nv = '0'\n"
+      "[[motion]]\nfield = 'vortices'\npoints = [[1, 0.1], [2, -0.0]]\nstrengths = [1, 1e-17]\ncore = 1\n"
       "[border]\ndefault = 'slide'\n'a marker.with \"odd\" name' = 'moving'\n"
       "[time]\nend = 1\ndt = 0.3\nintegrator = 'euler'\n[repair]\nallow_escaped = true\n[output]\nevery = "
       "3\n";

@@ -132,6 +132,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScenario,
                          testing::Values(Expectation{"swirl", 800, 20, 1e-4, 1e-12},
                                          Expectation{"taylor-green", 800, 5, never, 1e-12},
                                          Expectation{"twist", 800, 20, 1e-4, 1e-12},
+                                         Expectation{"vortices", 800, 20, never, 1e-12},
                                          Expectation{"rotor", 800, 90, 1e-9, 1e-12},
                                          Expectation{"jitter", 800, 50, never, 1e-12},
                                          Expectation{"pitching-airfoil", 1500, 10, 1e-9, 1e-9},
@@ -151,7 +152,7 @@ TEST(ShippedScenarios, AreAllTested) {
     names.insert(entry.path().stem().string());
   EXPECT_THAT(names, testing::UnorderedElementsAre("swirl", "taylor-green", "twist", "rotor", "jitter",
                                                    "pitching-airfoil", "oscillating-cylinder", "moving-bump",
-                                                   "airfoil-revolution"));
+                                                   "airfoil-revolution", "vortices"));
 }
 
 // It is a bump, it moves, and it is gone at the end.
