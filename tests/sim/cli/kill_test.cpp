@@ -20,7 +20,7 @@ const char* const scenario =
     "[[motion]]\nfield = \"brownian\"\ndiffusion = 1e-3\n"
     "[time]\ndt = 0.01\nsteps = 60\n"
     "[repair]\nquality = \"delaunay\"\n"
-    "[output]\nevery = 7\ncheckpoint = 3\n";
+    "[output]\nevery = 7\ncheckpoint = 3\npatches = true\n";
 
 int number_of_kills() {
   const char* text = std::getenv("KINEMESH_KILLS");
