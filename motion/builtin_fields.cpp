@@ -6,6 +6,7 @@
 #include "motion/expression.h"
 #include "motion/noise.h"
 #include "motion/plugin_field.h"
+#include "motion/recorded.h"
 #include "motion/rigid.h"
 #include "motion/sampled_grid.h"
 #include "motion/vortical.h"
@@ -165,6 +166,10 @@ std::vector<RegisteredField> file_fields() {
        [](const Parameters& p) {
          return std::make_shared<SampledGrid>(std::filesystem::path(p.text("file")));
        }},
+      {{"recorded",
+        "positions recorded in a file, linear in time between them",
+        {{"file", Kind::File, "table (.csv) or series of meshes (.pvd)"}}},
+       [](const Parameters& p) { return std::make_shared<RecordedPositions>(p.text("file")); }},
       {{"plugin",
         "a motion from a shared library (motion/plugin.h); further parameters are the plug-in's own",
         {{"library", Kind::File, "shared library"}},

@@ -7,6 +7,7 @@
 #include "core/io/mesh_io.h"
 #include "core/shapes.h"
 #include "core/validate.h"
+#include "motion/recorded.h"
 #include "motion/registry.h"
 #include "motion/restriction.h"
 #include "sim/toml_table.h"
@@ -57,6 +58,19 @@ void require_marker(const Mesh& mesh, const std::string& name, const Where& wher
                             (names.empty() ? ", which has none" : suggestion(name, names)));
 }
 
+// A record fits one mesh and some times only.
+void require_record(const AnyField& field, const Mesh& mesh, const Scenario& scenario, const Where& where) {
+  const auto* displacement = std::get_if<std::shared_ptr<const DisplacementField>>(&field);
+  const auto* record = displacement ? dynamic_cast<const RecordedPositions*>(displacement->get()) : nullptr;
+  if (!record) return;
+  try {
+    record->require_initial(mesh.user_positions());
+    record->require_times(0.0, scenario.time.end);
+  } catch (const InputError& error) {
+    throw error_at(where, error.what());
+  }
+}
+
 // Terms of the motion; markers that are moved by one of them are added to `border` where it does not name
 // them.
 std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
@@ -64,6 +78,7 @@ std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, Bor
   for (const MotionSpec& motion : scenario.motions) {
     terms.push_back(
         {make_field(motion.field, motion.parameters), parse_restriction(motion.on, motion.blend)});
+    require_record(terms.back().field, mesh, scenario, motion.where_of("file"));
     if (const auto* on = std::get_if<OnMarker>(&terms.back().where.on)) {
       require_marker(mesh, on->name, motion.where_of("on"));
       border.by_marker.emplace(on->name, BorderCondition::Moving);

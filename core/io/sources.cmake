@@ -10,6 +10,7 @@ set(KINEMESH_IO_SOURCES
   io/obj.cpp
   io/off.cpp
   io/ply.cpp
+  io/pvd_read.cpp
   io/scanner.cpp
   io/su2.cpp
   io/svg.cpp

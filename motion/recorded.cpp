@@ -1,0 +1,170 @@
+#include "motion/recorded.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "core/io/atomic_file.h"
+#include "core/io/mesh_io.h"
+#include "core/io/pvd.h"
+#include "core/io/scanner.h"
+
+namespace kinemesh {
+namespace {
+
+// A step that ends where the record does may miss its last time by rounding.
+constexpr double slack = 1e-9;  // of the record's length
+
+struct Row {
+  double time;
+  int vertex;
+  Point position;
+};
+
+Row read_row(io::Scanner& in) {
+  Row row{};
+  row.time = in.number("a time");
+  row.vertex = in.integer_here("the number of a vertex");
+  row.position.x = in.number_here("x");
+  row.position.y = in.number_here("y");
+  in.expect_line_end("four columns");
+  return row;
+}
+
+void read_header(io::Scanner& in) {
+  for (const char* column : {"time", "vertex", "x", "y"})
+    if (in.word("the header time,vertex,x,y") != column) in.fail("the header time,vertex,x,y expected");
+  in.expect_line_end("four columns");
+}
+
+// Rows of a table, which begins a new time with each vertex 0.
+class TableReader {
+ public:
+  TableReader(io::Scanner& in, std::vector<double>& times, std::vector<std::vector<Point>>& positions)
+      : in_(in), times_(times), positions_(positions) {}
+
+  void read() {
+    read_header(in_);
+    while (!in_.at_end()) add(read_row(in_));
+    if (times_.empty()) in_.fail("the file ends, at least one time expected");
+    require_complete();
+  }
+
+ private:
+  void add(const Row& row) {
+    if (row.vertex == 0) begin(row.time);
+    if (times_.empty() || row.vertex != static_cast<int>(positions_.back().size()))
+      in_.fail(
+          fmt::format("vertex {}, expected {}", row.vertex, times_.empty() ? 0 : positions_.back().size()));
+    if (row.time != times_.back())
+      in_.fail(fmt::format("time {}, expected {} as of vertex 0", row.time, times_.back()));
+    if (times_.size() > 1 && row.vertex >= static_cast<int>(positions_.front().size()))
+      in_.fail(fmt::format("vertex {}, but the first time has {} vertices", row.vertex,
+                           positions_.front().size()));
+    positions_.back().push_back(row.position);
+  }
+
+  void begin(double time) {
+    if (!times_.empty() && time <= times_.back())
+      in_.fail(fmt::format("time {} after {}, ascending times expected", time, times_.back()));
+    require_complete();
+    times_.push_back(time);
+    positions_.emplace_back();
+  }
+
+  void require_complete() const {
+    if (!times_.empty() && positions_.back().size() < positions_.front().size())
+      in_.fail(fmt::format("{} vertices at time {}, expected {} as at the first time",
+                           positions_.back().size(), times_.back(), positions_.front().size()));
+  }
+
+  io::Scanner& in_;
+  std::vector<double>& times_;
+  std::vector<std::vector<Point>>& positions_;
+};
+
+}  // namespace
+
+RecordedPositions::RecordedPositions(const std::filesystem::path& file) : file_(file.string()) {
+  if (file.extension() == ".csv")
+    read_table(read_file(file));
+  else if (file.extension() == ".pvd")
+    read_series();
+  else
+    throw InputError(file_, 0, "a record of positions is a table (.csv) or a series of meshes (.pvd)");
+  number_vertices();
+}
+
+void RecordedPositions::read_table(std::string text) {
+  std::ranges::replace(text, ',', ' ');
+  io::Scanner in(text, file_, '#');
+  TableReader(in, times_, positions_).read();
+}
+
+void RecordedPositions::read_series() {
+  for (const PvdEntry& entry : read_pvd(file_)) {
+    const auto mesh_file = std::filesystem::path(file_).parent_path() / entry.file;
+    times_.push_back(entry.time);
+    positions_.push_back(read_mesh(mesh_file).mesh.points);
+    if (positions_.back().size() != positions_.front().size())
+      throw InputError(mesh_file.string(), 0,
+                       fmt::format("{} vertices, expected {} as at the first time of {}",
+                                   positions_.back().size(), positions_.front().size(), file_));
+  }
+}
+
+void RecordedPositions::number_vertices() {
+  const auto& first = positions_.front();
+  for (int v = 0; v < static_cast<int>(first.size()); ++v)
+    if (const auto [other, is_new] = vertex_at_.emplace(first[v], v); !is_new)
+      throw InputError(file_, 0, fmt::format("vertices {} and {} begin at the same place", other->second, v));
+}
+
+void RecordedPositions::require_initial(std::span<const Point> positions) const {
+  const auto& first = positions_.front();
+  if (first.size() != positions.size())
+    throw InputError(file_, 0,
+                     fmt::format("{} vertices, expected {} as in the mesh", first.size(), positions.size()));
+  for (std::size_t v = 0; v < first.size(); ++v)
+    if (first[v] != positions[v])
+      throw InputError(file_, 0,
+                       fmt::format("vertex {} begins at ({}, {}), expected ({}, {}) as in the mesh", v,
+                                   first[v].x, first[v].y, positions[v].x, positions[v].y));
+}
+
+bool RecordedPositions::covers(double from, double to) const {
+  const double tolerance = slack * (times_.back() - times_.front());
+  return from >= times_.front() - tolerance && to <= times_.back() + tolerance;
+}
+
+void RecordedPositions::require_times(double from, double to) const {
+  if (!covers(from, to))
+    throw InputError(file_, 0,
+                     fmt::format("positions from time {} to {}, but needed from {} to {}", times_.front(),
+                                 times_.back(), from, to));
+}
+
+std::size_t RecordedPositions::Hash::operator()(const Point& p) const {
+  const std::hash<double> hash;
+  return hash(p.x) * 31 + hash(p.y);
+}
+
+Point RecordedPositions::displacement(const Point& initial, double t) const {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto vertex = vertex_at_.find(initial);
+  return vertex == vertex_at_.end() || !covers(t, t) ? Point(nan, nan)
+                                                     : position(vertex->second, t) - initial;
+}
+
+Point RecordedPositions::position(int vertex, double t) const {
+  const auto next = static_cast<std::size_t>(std::ranges::upper_bound(times_, t) - times_.begin());
+  if (next == 0) return positions_.front()[vertex];
+  if (next == times_.size()) return positions_.back()[vertex];
+  const double s = (t - times_[next - 1]) / (times_[next] - times_[next - 1]);
+  const Point& before = positions_[next - 1][vertex];
+  return before + s * (positions_[next][vertex] - before);
+}
+
+}  // namespace kinemesh
