@@ -105,20 +105,27 @@ Where where_of(const Scenario& scenario, std::string_view key) {
   return found == scenario.border.marker_where.end() ? Where{scenario.file.string(), 0} : found->second;
 }
 
-// The first vertex of the convex hull that the border's conditions let move away from it.
-std::optional<int> moving_hull_vertex(const Mesh& mesh, const BorderConditions& border) {
-  const Freedom freedom(mesh, border);
+// The first vertex of the convex hull that may leave it: one that moves freely, or slides along a slanted
+// line, where rounding takes it off the line. Along x or y it stays exactly.
+std::optional<int> leaving_hull_vertex(const Mesh& mesh, const Freedom& freedom) {
   for (int h = 0; h < 2 * mesh.n_edges(); ++h)
-    if (mesh.face_of(h) == none && freedom.of(mesh.to(h)) == BorderCondition::Moving) return mesh.to(h);
+    if (const int v = mesh.to(h); mesh.face_of(h) == none && (freedom.of(v) == BorderCondition::Moving ||
+                                                              freedom.allowed(v, {1.0, 0.0}).y != 0.0))
+      return v;
   return std::nullopt;
 }
 
 void require_still_hull(const Scenario& scenario, const Mesh& mesh, const BorderConditions& border) {
   if (!mesh.frame().empty()) return;
-  if (const auto vertex = moving_hull_vertex(mesh, border))
-    throw error_at(scenario.mesh.where, "frame = 0, but the outer border may move at vertex " +
-                                            std::to_string(mesh.user_vertex(*vertex)) +
-                                            "; a frame above 0 or a fixed border expected");
+  const Freedom freedom(mesh, border);
+  const auto vertex = leaving_hull_vertex(mesh, freedom);
+  if (!vertex) return;
+  const bool is_sliding = freedom.of(*vertex) == BorderCondition::Slide;
+  throw error_at(scenario.mesh.where,
+                 "frame = 0, but the outer border " +
+                     std::string(is_sliding ? "slides along a slanted line" : "may move") + " at vertex " +
+                     std::to_string(mesh.user_vertex(*vertex)) +
+                     "; a frame above 0 or a fixed border expected");
 }
 
 }  // namespace
