@@ -6,8 +6,9 @@ cd "$(dirname "$0")/.."
 
 scripts/install_packages.sh
 cmake --preset release
-cmake --build --preset release --target kinemesh_cli example_draw_step
+cmake --build --preset release --target kinemesh_cli
 
 scenario=examples/scenarios/airfoil-revolution.toml
 build/release/kinemesh run "$scenario" -o demo --force
-build/release/examples/example_draw_step "$scenario" 60 demo/step_60.svg -1.6 -1.6 2.6 1.6
+build/release/kinemesh draw demo --step 60 --zoom=-1.6,-1.6,2.6,1.6 -o demo/step_60.svg
+build/release/kinemesh report demo

@@ -13,9 +13,11 @@ build=(
   libmuparser-dev   # formulas in scenarios
   libopenmesh-dev   # half-edges
   libpugixml-dev    # VTU
+  librsvg2-dev      # figures as PNG
   libtbb-dev        # threads
   libtomlplusplus-dev
   nlohmann-json3-dev
+  pkgconf           # finds librsvg
   zlib1g-dev        # compressed VTU
 )
 tests=(

@@ -25,6 +25,7 @@ void add_check(CLI::App& program, Action& action);
 void add_convert(CLI::App& program, Action& action);
 void add_untangle(CLI::App& program, Action& action);
 void add_replay(CLI::App& program, Action& action);
+void add_draw(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_run(CLI::App& program, Action& action, const std::vector<std::string>& argv);
 

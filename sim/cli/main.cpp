@@ -99,6 +99,7 @@ int run_program(int argc, char** argv) {
   add_untangle(program, action);
   add_convert(program, action);
   add_report(program, action);
+  add_draw(program, action);
   add_list(program, action);
   try {
     program.parse(argc, argv);
