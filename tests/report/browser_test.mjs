@@ -160,6 +160,10 @@ const tests = {
     assert.equal(await page.locator("#bench-plots .plot").count(), 4);
     assert.equal(await page.locator("#bench-table tr").count(), 3);
     writeFileSync(`${folder}/whole_bench.png`, await page.screenshot({ fullPage: true }));
+    const sweep = await open("sweep");
+    assert.equal(await sweep.page.locator("#bench-plots .plot").count(), 4);
+    assert.deepEqual(await sweep.page.evaluate(() => window.page.benchPlots.list[0].data[0]), [0.01, 0.02, 0.04]);
+    assert.deepEqual(sweep.complaints, []);
     const narrow = await open("rotor", { viewport: { width: 480, height: 800 }, colorScheme: "dark" });
     assert(await narrow.page.evaluate(() => document.documentElement.classList.contains("dark") && document.documentElement.scrollWidth <= 480), "fits a narrow window, dark where that is wanted");
     assert.deepEqual([...complaints, ...narrow.complaints], []);

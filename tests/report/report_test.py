@@ -166,6 +166,10 @@ class Reports(unittest.TestCase):
         lines = ["strategy," + header]
         lines += [f"{name}," + row for name in ("global", "remesh") for row in rows]
         (cls.folder / "bench/bench.csv").write_text("\n".join(lines) + "\n")
+        (cls.folder / "sweep").mkdir()
+        lines = ["strategy,time.dt," + header]
+        lines += [f"{name},{dt}," + row for dt in (0.01, 0.02, 0.04) for name in ("global", "remesh") for row in rows]
+        (cls.folder / "sweep/bench.csv").write_text("\n".join(lines) + "\n")
 
     def report(self, name, *options, out=None):
         out = self.folder / f"{out or name}.html"
@@ -200,6 +204,12 @@ class Reports(unittest.TestCase):
             self.assertEqual(data["steps"][name], [float(row[header.index(name)]) for row in rows])
         self.assertEqual(data["sizes"]["max"], [float(row[header.index("region_faces_max")]) for row in rows])
         self.assertEqual(data["sizes"]["count"], [float(row[header.index("regions")]) for row in rows])
+
+    def test_a_sweep_is_found_by_its_column(self):
+        self.assertEqual(self.report("bench")[1]["bench"]["swept"], [])
+        bench = self.report("sweep")[1]["bench"]
+        self.assertEqual((bench["swept"], bench["strategies"]), (["time.dt"], ["global", "remesh"]))
+        self.assertEqual(set(bench["rows"]["time.dt"]), {0.01, 0.02, 0.04})
 
     def test_thinning_keeps_the_peak_and_is_told(self):
         _, data = self.report("many")
@@ -275,7 +285,7 @@ class Reports(unittest.TestCase):
         shutil.copytree(here / "reference", MODULES / "reference", dirs_exist_ok=True)
         if not npm("ci", "--no-audit", "--no-fund", "--prefer-offline", cwd=MODULES):
             self.skipTest("npm has no way to its packages")
-        for name in ("rotor", "one", "none", "many", "no_meshes", "series", "bench"):
+        for name in ("rotor", "one", "none", "many", "no_meshes", "series", "bench", "sweep"):
             self.report(name)
         self.test_a_page_keeps_to_its_size()
         command = ["node", "browser_test.mjs", CHROMIUM, str(self.folder)]
