@@ -45,6 +45,8 @@ bool is_png(const std::string& output) {
 
 void check(const DrawArguments& arguments) {
   (void)is_png(arguments.output);
+  if (arguments.step == none && std::filesystem::is_directory(arguments.mesh.path))
+    throw InputError(arguments.mesh.path, 0, "a folder: --step says which of the run's steps to draw");
   const auto& z = arguments.zoom;
   if (!z.empty() && !(z[0] < z[2] && z[1] < z[3]))
     throw InputError("--zoom: X0,Y0,X1,Y1 expected, lower left and upper right");

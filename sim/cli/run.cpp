@@ -91,6 +91,7 @@ void print_summary(const RunSummary& summary, const RemeshProbe& probe) {
   print_times(summary, probe);
   fmt::print("files\n");
   for (const auto& file : summary.files) fmt::print("  {}\n", file.string());
+  print_row("to look at it", "kinemesh report " + summary.plan.directory.string());
 }
 
 // The resolved scenario holds what --set and --split-quads changed.

@@ -253,7 +253,7 @@ class Maker {
                        n, n + static_cast<std::size_t>(n_skipped), options_.max_megabytes));
     if (!source.has_every_step())
       note(
-          "Only the meshes written can be shown; `kinemesh run` with [output] patches = true keeps every "
+          "Only the meshes written can be shown; `kinemesh run` with --set output.patches=true keeps every "
           "step.");
     data_["mesh"] = {{"vertices", source.start().points.size()},
                      {"faces", source.start().triangles.size()},

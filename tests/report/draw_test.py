@@ -109,9 +109,10 @@ class Drawings(unittest.TestCase):
                   (["-o", "f.svg", "--region", "other.json"], "other.json: is not the report of untangling m.off"),
                   (["-o", "f.svg", "--region", "seed.json", "--number", "7"], "--number 7: seed.json has regions 0 to 0"),
                   (["-o", "f.svg", "--number", "0"], "--number goes with --region"),
-                  (["-o", "f.svg", "--step", "1"], "patches.bin expected")]
+                  (["-o", "f.svg", "--step", "1"], "patches.bin expected"),
+                  ([".", "-o", "f.svg"], ".: a folder: --step says which")]
         for arguments, words in wanted:
-            done = subprocess.run([PROGRAM, "draw", "m.off", *arguments], cwd=self.folder, capture_output=True,
+            done = subprocess.run([PROGRAM, "draw", *([] if "." in arguments else ["m.off"]), *arguments], cwd=self.folder, capture_output=True,
                                   text=True, check=False)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn(words, done.stderr)

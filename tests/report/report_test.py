@@ -232,7 +232,7 @@ class Reports(unittest.TestCase):
         self.assertIn("--max-size 0.05: the plots alone need 0.", done.stderr)
 
     def test_what_is_not_there_is_told(self):
-        for name, word in (("none", "No step has been made"), ("no_meshes", "No meshes to play"), ("series", "patches = true")):
+        for name, word in (("none", "No step has been made"), ("no_meshes", "No meshes to play"), ("series", "output.patches=true")):
             _, data = self.report(name)
             self.assertIn(word, " ".join(data["notes"]))
         (self.folder / "empty").mkdir(exist_ok=True)
