@@ -44,15 +44,21 @@ void members(Archive& archive, S& logs) {
 }
 
 template <class Archive, class S>
+requires Is<S, AdaptiveState>
+void members(Archive& archive, S& adaptive) {
+  archive(adaptive.position, adaptive.length, adaptive.in_a_row, adaptive.rejected);
+}
+
+template <class Archive, class S>
 requires Is<S, Checkpoint>
 void members(Archive& archive, S& checkpoint) {
   archive(checkpoint.program, checkpoint.scenario, checkpoint.origin, checkpoint.mesh, checkpoint.time,
-          checkpoint.step, checkpoint.totals, checkpoint.series, checkpoint.logs);
+          checkpoint.step, checkpoint.adaptive, checkpoint.totals, checkpoint.series, checkpoint.logs);
 }
 
 namespace {
 
-constexpr binary::Kind kind{"KMCHKPT\n", 1, "checkpoint of kinemesh"};
+constexpr binary::Kind kind{"KMCHKPT\n", 2, "checkpoint of kinemesh"};
 
 constexpr const char* current_name = "checkpoint.bin";
 constexpr const char* previous_name = "checkpoint_prev.bin";

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/mesh_state.h"
+#include "sim/adaptive_steps.h"
 #include "sim/csv_log.h"
 #include "sim/run.h"
 #include "sim/series.h"
@@ -22,7 +23,8 @@ struct Checkpoint {
   MeshState mesh;
   double time = 0.0;
   int step = 0;
-  RunSummary totals;  // without plan, reason to stop and files
+  AdaptiveState adaptive;  // after that step
+  RunSummary totals;       // without plan, reason to stop and files
   SeriesState series;
   LogLengths logs;
 };

@@ -121,7 +121,8 @@ void StepLog::shorten(const LogLengths& lengths) noexcept {
 }
 
 void StepLog::write(const StepRecord& record) {
-  for (size_t i = 0; i < record.repair.regions.size(); ++i)
+  const size_t n_regions = record.accepted ? record.repair.regions.size() : 0;
+  for (size_t i = 0; i < n_regions; ++i)
     regions_.write(regions_csv_row(record.step, static_cast<int>(i), record.repair.regions[i]));
   steps_.write(steps_csv_row(record));
 }

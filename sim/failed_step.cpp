@@ -7,7 +7,7 @@ namespace kinemesh {
 template <class Archive, class S>
 requires binary::Is<S, StepperOptions>
 void members(Archive& archive, S& options) {
-  archive(options.strategy, options.quality, options.allow_escaped, options.retain);
+  archive(options.strategy, options.quality, options.allow_escaped, options.retain, options.max_region_share);
 }
 
 template <class Archive, class S>
@@ -19,7 +19,7 @@ void members(Archive& archive, S& step) {
 
 namespace {
 
-constexpr binary::Kind kind{"KMFSTEP\n", 1, "failed step of kinemesh"};
+constexpr binary::Kind kind{"KMFSTEP\n", 2, "failed step of kinemesh"};
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #include "sim/run.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
@@ -38,6 +39,7 @@ RunPlan plan_of(const Scenario& scenario, const RunOptions& options, const Mesh&
   plan.strategy = scenario.repair.strategy;
   plan.steps = scenario.time.steps;
   plan.end_time = scenario.time.end;
+  plan.is_adaptive = scenario.time.adaptive.has_value();
   plan.threads = thread_count(options.threads);
   plan.vertices = mesh.n_user_vertices();
   plan.faces = mesh.n_user_faces();
@@ -62,6 +64,7 @@ class Runner {
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
         stepper_(set_up.mesh, stepper_options(scenario)),
+        steps_(scenario.time),
         json_(open(directory_, scenario), scenario, options),
         log_(directory_),
         series_(directory_, set_up.mesh) {
@@ -80,6 +83,7 @@ class Runner {
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
         stepper_(std::move(from.mesh), stepper_options(scenario), from.checkpoint.time, from.checkpoint.step),
+        steps_(scenario.time, from.checkpoint.adaptive),
         json_(directory_, scenario, options),
         log_(directory_, from.checkpoint.logs),
         series_(directory_, set_up.mesh, from.checkpoint.series),
@@ -92,7 +96,7 @@ class Runner {
 
   RunSummary run() {
     guarded([&] {
-      while (stepper_.steps_done() < scenario_.time.steps && !summary_.stopped) do_step();
+      while (!steps_.is_done() && !summary_.stopped) do_step();
     });
     if (!is_file_broken_) {
       if (summary_.stopped) guarded([&] { write_checkpoint_of_step(); });
@@ -112,10 +116,17 @@ class Runner {
 
   static StepperOptions stepper_options(const Scenario& scenario) {
     return {scenario.repair.strategy, scenario.repair.allow_escaped, scenario.repair.retain,
-            scenario.repair.quality};
+            scenario.repair.quality, max_region_share(scenario)};
+  }
+
+  static double max_region_share(const Scenario& scenario) {
+    const auto& adaptive = scenario.time.adaptive;
+    return adaptive && adaptive->max_region_share ? *adaptive->max_region_share
+                                                  : StepperOptions().max_region_share;
   }
 
   void begin(RunPlan plan) {
+    summary_.rejected = steps_.state().rejected;
     checkpoint_.program = KINEMESH_VERSION;
     checkpoint_.scenario = to_toml(scenario_);
     checkpoint_.logs = log_.lengths();
@@ -140,26 +151,41 @@ class Runner {
   }
 
   void do_step() {
-    const int n = stepper_.steps_done() + 1;
-    const StepOutcome outcome = step_to(scenario_.time.time_after(n));
+    const double end_time = steps_.next_end();
+    const StepOutcome outcome = step_to(end_time);
     if (outcome) {
+      steps_.accept();
       write_step(outcome.record);
     } else {
-      stop(why_stopped(outcome), false);
-      log_.write(outcome.record);
+      reject(outcome, end_time);
     }
     observer_.stepped(outcome.record, stepper_.mesh());
-    if (const char* signal = StopOnSignals::received();
-        signal && n < scenario_.time.steps && !summary_.stopped)
-      stop(std::string("stopped by ") + signal + " after step " + std::to_string(n), true);
+    if (const char* signal = StopOnSignals::received(); signal && !steps_.is_done() && !summary_.stopped)
+      stop(std::string("stopped by ") + signal + " after step " + std::to_string(stepper_.steps_done()),
+           true);
+  }
+
+  // Its row stays in the log only behind that of the next accepted step: on resuming, the step is tried again.
+  void reject(const StepOutcome& outcome, double end_time) {
+    const bool has_half = steps_.reject();
+    summary_.rejected = steps_.state().rejected;
+    if (!has_half) {
+      stop(why_stopped(outcome) + why_not_halved(outcome.record.dt), false);
+      dump(end_time, why_stopped(outcome), outcome.defect ? outcome.defect->detail : "");
+    }
+    log_.write(outcome.record);
+  }
+
+  std::string why_not_halved(double dt) const {
+    const auto& adaptive = scenario_.time.adaptive;
+    if (!adaptive) return "";
+    return fmt::format("; its length {} cannot be halved, min_dt is {}", dt, adaptive->min_dt);
   }
 
   // Memory that ran out is no property of the step.
   StepOutcome step_to(double end_time) {
     try {
-      auto outcome = stepper_.step_to(motion_, end_time);
-      if (!outcome) dump(end_time, why_stopped(outcome), outcome.defect->detail);
-      return outcome;
+      return stepper_.step_to(motion_, end_time);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
@@ -202,15 +228,14 @@ class Runner {
     }
     is_file_broken_ = false;
     checkpoint_.logs = log_.lengths();
+    checkpoint_.adaptive = steps_.state();
     add_step(summary_, record, stepper_.mesh().n_faces());
     if (is_multiple(record.step, scenario_.output.checkpoint)) write_checkpoint_of_step();
     summary_.ms.write += writing.milliseconds();
   }
 
   // Or the last step. Every 0 steps is never.
-  bool is_multiple(int step, int of) const {
-    return of > 0 ? step % of == 0 || step == scenario_.time.steps : false;
-  }
+  bool is_multiple(int step, int of) const { return of > 0 ? step % of == 0 || steps_.is_done() : false; }
 
   // The lengths are those at the end of the last accepted step: a rejected one comes again.
   void write_checkpoint_of_step() {
@@ -247,6 +272,7 @@ class Runner {
   std::filesystem::path directory_;
   Motion motion_;
   Stepper stepper_;
+  AdaptiveSteps steps_;
   RunJson json_;
   StepLog log_;
   MeshSeries series_;
@@ -272,7 +298,10 @@ RunSummary go(const Scenario& scenario, const RunOptions& options, RunObserver& 
 }  // namespace
 
 std::string why_stopped(const StepOutcome& outcome) {
-  return "step " + std::to_string(outcome.record.step) + " has no valid mesh: " + outcome.defect->message();
+  const std::string step = "step " + std::to_string(outcome.record.step);
+  if (outcome.defect) return step + " has no valid mesh: " + outcome.defect->message();
+  return fmt::format("{} at time {} has regions of {:.4g} of all faces, max_region_share is {}", step,
+                     outcome.record.time, outcome.too_large->share, outcome.too_large->limit);
 }
 
 RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver& observer) {
@@ -289,7 +318,10 @@ RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver&
   }
   SetUp made = set_up_for(scenario, restart);
   RunPlan plan = plan_of(scenario, options, made.mesh);
-  if (restart) plan.steps_done = restart->checkpoint.step;
+  if (restart) {
+    plan.steps_done = restart->checkpoint.step;
+    plan.start_time = restart->checkpoint.time;
+  }
   for (const auto& note : made.notes) observer.note(note);
   observer.started(plan);
   if (options.dry_run)

@@ -27,7 +27,9 @@ struct RunPlan {
   std::filesystem::path directory;
   std::string strategy;
   int steps = 0;
-  int steps_done = 0;  // before, by the run that is resumed
+  int steps_done = 0;        // before, by the run that is resumed
+  bool is_adaptive = false;  // `steps` are as many as it takes if none is halved or doubled
+  double start_time = 0.0;   // of the steps to come
   double end_time = 0.0;
   int threads = 1;
   int vertices = 0, faces = 0;  // of the domain
@@ -45,8 +47,9 @@ struct PhaseTimes {
 
 struct RunSummary {
   RunPlan plan;
-  int steps = 0;      // accepted
-  double time = 0.0;  // reached
+  int steps = 0;           // accepted
+  long long rejected = 0;  // steps that were undone and halved, or ended the run
+  double time = 0.0;       // reached
   int steps_tangled = 0;
   long long inverted = 0;  // inverted and flat faces, summed over the accepted steps like the following
   long long regions = 0;
@@ -75,7 +78,7 @@ class RunObserver {
   virtual void finished(const RunSummary& /*summary*/) {}
 };
 
-// The reason to stop at a step with a defect.
+// The reason to stop at a step that was not accepted.
 std::string why_stopped(const StepOutcome& outcome);
 
 // Writes scenario.toml, run.json, steps.csv, regions.csv, mesh_NNNNNN.vtu, mesh.pvd and the last mesh as

@@ -37,15 +37,11 @@ Json mesh_json(const RunPlan& plan) {
 }
 
 Json totals_json(const RunSummary& s) {
-  return {{"steps_tangled", s.steps_tangled},
-          {"inverted", s.inverted},
-          {"regions", s.regions},
-          {"region_faces", s.region_faces},
-          {"region_faces_max", s.region_faces_max},
-          {"replaced", s.replaced},
-          {"share_mean", s.share_mean},
-          {"share_max", s.share_max},
-          {"retries", s.retries}};
+  return {{"rejected", s.rejected},         {"steps_tangled", s.steps_tangled},
+          {"inverted", s.inverted},         {"regions", s.regions},
+          {"region_faces", s.region_faces}, {"region_faces_max", s.region_faces_max},
+          {"replaced", s.replaced},         {"share_mean", s.share_mean},
+          {"share_max", s.share_max},       {"retries", s.retries}};
 }
 
 Json times_json(const PhaseTimes& ms) {

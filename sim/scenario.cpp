@@ -192,15 +192,33 @@ void complete(const TomlTable& table, const std::optional<double>& end, const st
   time.steps = *needed;
 }
 
+constexpr double halvings = 1024.0;  // of dt, where min_dt is not given
+
+AdaptiveSpec read_adaptive(const toml::table& source, const TimeSpec& time) {
+  TomlTable table(source, "[time] adaptive");
+  AdaptiveSpec adaptive;
+  adaptive.max_region_share = table.positive("max_region_share");
+  adaptive.min_dt = table.positive("min_dt").value_or(time.dt / halvings);
+  adaptive.max_dt = table.positive("max_dt").value_or(time.dt);
+  table.refuse_other_keys();
+  if (adaptive.min_dt > time.dt) table.fail("min_dt", "a number not above dt expected");
+  if (adaptive.max_dt < time.dt) table.fail("max_dt", "a number not below dt expected");
+  if (!steps_to_reach(time.end, adaptive.min_dt))
+    table.fail("min_dt", "too short, it takes more than " + std::to_string(most) + " steps");
+  return adaptive;
+}
+
 TimeSpec read_time(TomlTable& table) {
   TimeSpec time;
   const auto end = table.positive("end"), dt = table.positive("dt");
   const auto steps = table.integer("steps", 1, most);
   time.integrator = read_integrator(table);
+  const auto* adaptive = table.table("adaptive");
   table.refuse_other_keys();
   if (end.has_value() + dt.has_value() + steps.has_value() != 2)
     throw error_at(table.where(), "[time]: two of end, dt and steps expected");
   complete(table, end, dt, steps, time);
+  if (adaptive) time.adaptive = read_adaptive(*adaptive, time);
   return time;
 }
 

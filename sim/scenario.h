@@ -51,12 +51,20 @@ struct BorderSpec {
   std::map<std::string, Where, std::less<>> marker_where;
 };
 
+// [time] adaptive: steps that fail or replace too much are undone and halved (sim/adaptive_steps.h).
+struct AdaptiveSpec {
+  std::optional<double> max_region_share;  // faces of the regions over all faces; nothing: any
+  double min_dt = 0.0;                     // from 0 < min_dt <= dt; fewer than 2^31 of them reach the end
+  double max_dt = 0.0;                     // at least dt
+};
+
 // [time]: two of end, dt and steps are given.
 struct TimeSpec {
   double dt = 0.0;
   double end = 0.0;
   int steps = 0;
   Integrator integrator = Integrator::Rk4;
+  std::optional<AdaptiveSpec> adaptive = std::nullopt;  // of steps that begin with dt
 
   double time_after(int step) const;  // step dt; the last step is shortened to end
 };

@@ -55,6 +55,13 @@ std::string to_text(bool value) {
   return value ? "true" : "false";
 }
 
+std::string to_text(const AdaptiveSpec& adaptive) {
+  const auto share = adaptive.max_region_share;
+  return fmt::format("{{{}min_dt = {}, max_dt = {}}}",
+                     share ? "max_region_share = " + to_text(*share) + ", " : "", to_text(adaptive.min_dt),
+                     to_text(adaptive.max_dt));
+}
+
 // A key that is not of letters, digits, - and _ alone needs quotes.
 std::string key_text(const std::string& key) {
   std::ostringstream out;
@@ -116,6 +123,7 @@ void write(Writer& out, const TimeSpec& time) {
   if (!is_end_implied) out.line("end", time.end);
   if (is_end_implied || is_dt_implied) out.line("steps", std::int64_t{time.steps});
   out.line("integrator", std::string(to_string(time.integrator)));
+  if (time.adaptive) out.line("adaptive", *time.adaptive);
 }
 
 void write(Writer& out, const RepairSpec& repair) {

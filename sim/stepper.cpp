@@ -104,9 +104,12 @@ Stepper::Stepper(Mesh mesh, const StepperOptions& options, double time, int step
       strategy_(make_strategy(options.strategy)),
       quality_(make_quality(options.quality, mesh_)),
       repair_{.allow_escaped = options.allow_escaped, .retain = options.retain},
+      max_region_share_(options.max_region_share),
       next_(mesh_.positions().begin(), mesh_.positions().end()),
       time_(time),
-      step_(steps_done) {}
+      step_(steps_done) {
+  if (std::isfinite(max_region_share_)) tracker_ = std::make_unique<ChangeTracker>(mesh_);
+}
 
 // `move` writes the positions at end_time over those of now and names what made one of them not finite.
 template <class Move>
@@ -126,9 +129,8 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   outcome.record.move_ms = clock.milliseconds();
 
   if (!outcome.defect) repair_moved(outcome);
-  if (outcome.defect) {
-    add_time(*outcome.defect, end_time);
-  } else {
+  if (outcome.defect) add_time(*outcome.defect, end_time);
+  if (outcome) {
     time_ = end_time;
     ++step_;
     outcome.record.accepted = true;
@@ -146,6 +148,10 @@ void Stepper::repair_moved(StepOutcome& outcome) {
   outcome.defect = std::move(repaired.defect);
   if (outcome.defect) return;
   ChangesInPlace rewritten(mesh_, tracker_.get());
+  if ((outcome.too_large = excess(outcome.record.repair))) {
+    tracker_->note(outcome.record.repair.regions, {});
+    return;
+  }
   improve(outcome.record.repair);
   if (tracker_) tell_observers(outcome.record);
   rewritten.keep();
@@ -155,6 +161,7 @@ void Stepper::repair_moved(StepOutcome& outcome) {
 // next_ holds the positions before the step. What an observer throws goes through the two guards above.
 void Stepper::tell_observers(const StepRecord& record) {
   tracker_->note(record.repair.regions, quality_->flipped_faces());
+  if (observers_.empty()) return;
   const auto patches = tracker_->patches(mesh_, record.repair.regions);
   const StepChanges changes{.step = record.step,
                             .time = record.time,
@@ -164,6 +171,12 @@ void Stepper::tell_observers(const StepRecord& record) {
                             .repair = record.repair,
                             .patches = patches};
   for (const auto& observer : observers_) observer(changes);
+}
+
+std::optional<RegionsTooLarge> Stepper::excess(const RepairRecord& record) const {
+  const double share = static_cast<double>(record.region_faces()) / mesh_.n_faces();
+  if (!(share > max_region_share_)) return std::nullopt;
+  return RegionsTooLarge{share, max_region_share_};
 }
 
 // Cannot fail, and is undone by observers only. The initial mesh may have any

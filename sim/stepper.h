@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,6 +31,9 @@ struct StepperOptions {
   bool allow_escaped = false;       // see RepairOptions
   bool retain = false;              // see RepairOptions
   std::string quality = "none";     // a name make_quality knows
+  // Above it, the faces of the step's regions over all faces, both with padding, refuse the step. A limit that
+  // is finite takes memory for the whole mesh, as observers do.
+  double max_region_share = std::numeric_limits<double>::infinity();
 };
 
 // What one step did; the columns of steps.csv.
@@ -45,13 +49,20 @@ struct StepRecord {
   bool accepted = false;
 };
 
-// A step is a transaction: without a defect the mesh is valid at the new positions; with one, mesh, positions
-// and time are bit for bit what they were.
+// Why a step with a valid mesh was refused.
+struct RegionsTooLarge {
+  double share = 0.0, limit = 0.0;  // see StepperOptions::max_region_share
+};
+
+// A step is a transaction: accepted, the mesh is valid at the new positions; otherwise mesh, positions and
+// time are bit for bit what they were, and one of the two says why: too_large only where max_region_share was
+// given.
 struct StepOutcome {
   StepRecord record;
   std::optional<Defect> defect;
+  std::optional<RegionsTooLarge> too_large = std::nullopt;
 
-  explicit operator bool() const { return !defect; }
+  explicit operator bool() const { return !defect && !too_large; }
 };
 
 class Stepper {
@@ -100,6 +111,7 @@ class Stepper {
   StepOutcome step_by(const Motion& motion, double end_time, double dt);
   StepOutcome step_by(std::span<const Point> positions, double end_time, double dt);
   void repair_moved(StepOutcome& outcome);
+  std::optional<RegionsTooLarge> excess(const RepairRecord& record) const;
   void improve(RepairRecord& record);
   void tell_observers(const StepRecord& record);
   void refresh_positions();
@@ -108,10 +120,11 @@ class Stepper {
   std::unique_ptr<Strategy> strategy_;
   std::unique_ptr<QualityPass> quality_;
   RepairOptions repair_;
+  double max_region_share_;
   std::vector<Point> next_;       // positions after the step, then before it
   std::vector<Point> positions_;  // what positions() hands out; empty before
   std::vector<StepObserver> observers_;
-  std::unique_ptr<ChangeTracker> tracker_;  // with observers only
+  std::unique_ptr<ChangeTracker> tracker_;  // with observers or a limit only
   double time_;
   int step_;
 };

@@ -21,11 +21,19 @@ std::string clock_time(double seconds) {
   return h > 0 ? fmt::format("{}:{:02}:{:02}", h, m, s) : fmt::format("{}:{:02}", m, s);
 }
 
+// As a multiple of what this program has done; by time, where steps differ in length.
+double steps_left(const StepRecord& record, const RunPlan& plan) {
+  if (plan.is_adaptive) return (plan.end_time - record.time) / (record.time - plan.start_time);
+  return static_cast<double>(plan.steps - record.step) / std::max(1, record.step - plan.steps_done);
+}
+
 std::string describe(const StepRecord& record, const RunPlan& plan, int n_faces) {
   const RepairRecord& repair = record.repair;
-  return fmt::format("step {}/{}  t = {:.5g}  inverted {}  regions {}  replaced {:.2f} %  {:.1f} ms",
-                     record.step, plan.steps, record.time, repair.inverted + repair.degenerate,
-                     repair.regions.size(), 100.0 * repair.replaced / std::max(1, n_faces), record.total_ms);
+  const std::string of = plan.is_adaptive ? "" : fmt::format("/{}", plan.steps);
+  return fmt::format("step {}{}{}  t = {:.5g}  inverted {}  regions {}  replaced {:.2f} %  {:.1f} ms",
+                     record.step, of, record.accepted ? "" : " rejected", record.time,
+                     repair.inverted + repair.degenerate, repair.regions.size(),
+                     100.0 * repair.replaced / std::max(1, n_faces), record.total_ms);
 }
 
 }  // namespace
@@ -58,7 +66,7 @@ void Progress::started(const RunPlan& plan) {
 }
 
 bool Progress::is_due(int step) const {
-  if (verbosity_ == Verbosity::Verbose || step == plan_.steps) return true;
+  if (verbosity_ == Verbosity::Verbose || (step == plan_.steps && !plan_.is_adaptive)) return true;
   const Seconds waited = Clock::now() - last_shown_;
   if (is_live_) return waited >= live_interval;
   return step % std::max(1, plan_.steps / plain_lines) == 0 || waited >= plain_interval;
@@ -67,7 +75,7 @@ bool Progress::is_due(int step) const {
 void Progress::show(const StepRecord& record, int n_faces) {
   last_shown_ = Clock::now();
   const double elapsed = Seconds(last_shown_ - start_).count();
-  const double left = elapsed / std::max(1, record.step - plan_.steps_done) * (plan_.steps - record.step);
+  const double left = elapsed * steps_left(record, plan_);
   const std::string text = describe(record, plan_, n_faces) + "  ETA " + clock_time(left);
   if (!is_live_) {
     say(text + "\n");
@@ -80,7 +88,7 @@ void Progress::show(const StepRecord& record, int n_faces) {
 
 void Progress::stepped(const StepRecord& record, const Mesh& mesh) {
   if (verbosity_ == Verbosity::Quiet) return;
-  if (is_due(record.step) || !record.accepted) show(record, mesh.n_faces());
+  if (is_due(record.step) || (!record.accepted && !plan_.is_adaptive)) show(record, mesh.n_faces());
   probe_.sample(record, mesh);
 }
 

@@ -50,7 +50,8 @@ void print_plan(const Scenario& scenario, const RunPlan& plan) {
   print_row("markers",
             plan.markers.empty() ? std::string("none") : fmt::format("{}", fmt::join(plan.markers, ", ")));
   for (const MotionSpec& motion : scenario.motions) print_row("motion", describe(motion));
-  print_row("time", fmt::format("{} steps of {} to {}", plan.steps, scenario.time.dt, plan.end_time));
+  print_row("time", fmt::format("{} steps of {} to {}{}", plan.steps, scenario.time.dt, plan.end_time,
+                                plan.is_adaptive ? ", fewer or more as they succeed" : ""));
   print_row("strategy", plan.strategy);
   print_row("threads", plan.threads);
   print_row("folder", plan.directory.string());
@@ -79,7 +80,9 @@ void print_times(const RunSummary& summary, const RemeshProbe& probe) {
 }
 
 void print_summary(const RunSummary& summary, const RemeshProbe& probe) {
-  print_row("steps", fmt::format("{} of {}, to t = {:.6g}", summary.steps, summary.plan.steps, summary.time));
+  const std::string planned = summary.plan.is_adaptive ? fmt::format("{} rejected", summary.rejected)
+                                                       : fmt::format("of {}", summary.plan.steps);
+  print_row("steps", fmt::format("{} {}, to t = {:.6g}", summary.steps, planned, summary.time));
   print_row("steps that tangled", summary.steps_tangled);
   print_row("inverted triangles", fmt::format("{} in {} regions, the largest of {}", summary.inverted,
                                               summary.regions, summary.region_faces_max));

@@ -37,6 +37,7 @@ Checkpoint checkpoint_of(const Mesh& initial, const Stepper& stepper) {
   checkpoint.mesh = state_of(stepper.mesh());
   checkpoint.time = stepper.time();
   checkpoint.step = stepper.steps_done();
+  checkpoint.adaptive = {.position = 0.75, .length = 0.25, .in_a_row = 3, .rejected = 1LL << 35};
   checkpoint.totals.inverted = 1LL << 40;
   checkpoint.totals.share_mean = 0.1;
   checkpoint.totals.ms.write = 7.0;
@@ -102,6 +103,10 @@ INSTANTIATE_TEST_SUITE_P(All, EachStrategyAndQuality,
 TEST(Checkpoint, KeepsEverythingElse) {
   const auto checkpoint = parse_checkpoint(format_checkpoint(small_checkpoint()));
   EXPECT_EQ(checkpoint.scenario, "a = 1\nb = 2\n");
+  EXPECT_EQ(checkpoint.adaptive.position, 0.75);
+  EXPECT_EQ(checkpoint.adaptive.length, 0.25);
+  EXPECT_EQ(checkpoint.adaptive.in_a_row, 3);
+  EXPECT_EQ(checkpoint.adaptive.rejected, 1LL << 35);
   EXPECT_EQ(checkpoint.totals.inverted, 1LL << 40);
   EXPECT_EQ(checkpoint.totals.share_mean, 0.1);
   EXPECT_EQ(checkpoint.totals.ms.write, 7.0);
@@ -155,11 +160,11 @@ TEST(Checkpoint, IsRefusedWithAnyOtherLength) {
 
 // Sealed rightly, by a program of another version or with too little inside.
 TEST(Checkpoint, IsRefusedInAnotherLayout) {
-  const binary::Kind ours{"KMCHKPT\n", 1, "checkpoint"}, later{"KMCHKPT\n", 9, "checkpoint"};
+  const binary::Kind ours{"KMCHKPT\n", 2, "checkpoint"}, later{"KMCHKPT\n", 9, "checkpoint"};
   const std::string whole = format_checkpoint(small_checkpoint());
   const std::string payload(binary::unseal(ours, whole));
   EXPECT_EQ(error_of(binary::seal(ours, payload)), "none");
-  EXPECT_THAT(error_of(binary::seal(later, payload)), HasSubstr("version 9 of the layout, 1 expected"));
+  EXPECT_THAT(error_of(binary::seal(later, payload)), HasSubstr("version 9 of the layout, 2 expected"));
   EXPECT_THAT(error_of(binary::seal(ours, payload + "x")), HasSubstr("more bytes"));
   for (size_t length = 0; length < payload.size(); length += 7)
     EXPECT_NE(error_of(binary::seal(ours, payload.substr(0, length))), "none");

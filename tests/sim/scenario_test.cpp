@@ -129,7 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"UnknownKey", "shape", "frme = 1\nshape",
                 "a.toml:2: unknown key 'frme' in [mesh], did you mean 'frame'?"},
         Mistake{"FarKey", "steps = 10", "steps = 10\ncolour = 1",
-                "a.toml:8: unknown key 'colour' in [time], expected one of: end, dt, steps, integrator"},
+                "a.toml:8: unknown key 'colour' in [time], expected one of: end, dt, steps, integrator, "
+                "adaptive"},
         Mistake{"NoMesh", "[mesh]\nshape = 'square'\n", "", "a.toml:1: [mesh] expected"},
         Mistake{"EmptyMesh", "shape = 'square'\n", "", "a.toml:1: [mesh]: file or shape expected"},
         Mistake{"ShapeAndFile", "shape", "file = 'a.su2'\nshape", "a.toml:3: shape: belongs to a shape"},
@@ -185,6 +186,17 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NoStep", "10", "0", "a.toml:7: steps: 0, an integer from 1 to"},
         Mistake{"ZeroDt", "0.1", "0", "a.toml:6: dt: 0, a number above 0 expected"},
         Mistake{"InfiniteDt", "0.1", "inf", "a.toml:6: dt: inf, a finite number expected"},
+        Mistake{"Adaptive", "steps = 10", "steps = 10\nadaptive = true", "a.toml:8: adaptive: true, a table"},
+        Mistake{"AdaptiveKey", "steps = 10", "steps = 10\nadaptive = {min = 1}",
+                "a.toml:8: unknown key 'min' in [time] adaptive"},
+        Mistake{"AdaptiveShare", "steps = 10", "steps = 10\nadaptive = {max_region_share = 0}",
+                "a.toml:8: max_region_share: 0, a number above 0 expected"},
+        Mistake{"LongMinDt", "steps = 10", "steps = 10\nadaptive = {min_dt = 0.11}",
+                "a.toml:8: min_dt: a number not above dt expected"},
+        Mistake{"ShortMaxDt", "steps = 10", "steps = 10\nadaptive = {max_dt = 0.09}",
+                "a.toml:8: max_dt: a number not below dt expected"},
+        Mistake{"ShortMinDt", "steps = 10", "steps = 10\nadaptive = {min_dt = 1e-10}",
+                "a.toml:8: min_dt: too short, it takes more than 2147483647 steps"},
         Mistake{"EndlessEnd", "0.1", "1e308", "a.toml:7: steps: steps times dt overflows"},
         Mistake{"TooShortDt", "steps = 10", "end = 1e300", "a.toml:6: dt: too short"},
         Mistake{"Integrator", "[time]", "[time]\nintegrator = 'rk5'", "a.toml:6: "},
@@ -237,6 +249,21 @@ TEST(Scenario, SurvivesBeingWrittenOut) {
     EXPECT_EQ(two.motions[0].blend, one.motions[0].blend);
     EXPECT_EQ(two.border.conditions.by_marker, one.border.conditions.by_marker);
   }
+}
+
+TEST(Scenario, WritesAdaptiveStepsOut) {
+  const Scenario one = parse_scenario(smallest + "adaptive = {max_region_share = 0.3}\n", "a.toml");
+  ASSERT_TRUE(one.time.adaptive);
+  EXPECT_EQ(one.time.adaptive->min_dt, 0.1 / 1024);
+  EXPECT_EQ(one.time.adaptive->max_dt, 0.1);
+  const Scenario two = parse_scenario(to_toml(one), "a.toml");
+  ASSERT_TRUE(two.time.adaptive);
+  EXPECT_EQ(two.time.adaptive->max_region_share, 0.3);
+  EXPECT_EQ(two.time.adaptive->min_dt, one.time.adaptive->min_dt);
+  EXPECT_EQ(two.time.adaptive->max_dt, 0.1);
+  const auto any = parse_scenario(smallest + "adaptive = {max_dt = 1}\n", "a.toml").time.adaptive;
+  EXPECT_FALSE(any->max_region_share);
+  EXPECT_EQ(any->max_dt, 1.0);
 }
 
 TEST(Scenario, IsWrittenWithAbsolutePathsAndDefaults) {

@@ -232,6 +232,21 @@ TEST_F(Run, StopsWithTheLastValidMeshWhereNoneExists) {
   EXPECT_TRUE(has(run({"run", "ring.toml", "--force"}).out, "2 of 10"));
 }
 
+TEST_F(Run, AdaptiveStepsAreHalvedDownToTheShortest) {
+  write("s.toml", collision_toml);
+  const Result result =
+      run({"run", "s.toml", "--set", "time.adaptive.min_dt=0.04", "--set", "time.adaptive.max_dt=0.4"});
+  EXPECT_EQ(result.code, 1);
+  const std::string why = result.err_lines().back();
+  EXPECT_TRUE(has(why, " has no valid mesh: ")) << why;
+  EXPECT_TRUE(has(why, "cannot be halved, min_dt is 0.04")) << why;
+  EXPECT_TRUE(has(result.out, " rejected, to t = ")) << result.out;
+  const auto rows = lines_of(read_text(path("s/steps.csv")));
+  EXPECT_EQ(rows.back().back(), '0');
+  EXPECT_GE(std::ranges::count_if(rows, [](const auto& row) { return row.ends_with(",0"); }), 2);
+  EXPECT_EQ(run({"check", last_mesh("s")}).code, 0);
+}
+
 TEST_F(Run, InterruptEndsTheRunAfterAStep) {
   write("long.toml", jitter_toml);
   const pid_t process =
