@@ -23,7 +23,8 @@ std::vector<StrategyInfo>& registry() {
       info<LocalUntangling>(
           "local", "replaces the minimum region around one inverted face after the other; always ends valid"),
       info<FullRemesh>("remesh", "triangulates all vertices anew at every step (CGAL); always ends valid"),
-      info<AutomaticRepair>("auto", "global, or remesh where most of the mesh is tangled; always ends valid"),
+      info<AutomaticRepair>("auto",
+                            "global, or remesh where most of the mesh would be replaced; always ends valid"),
   };
   return all;
 }
