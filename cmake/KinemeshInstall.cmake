@@ -16,7 +16,9 @@ install(TARGETS ${KINEMESH_LIBRARIES} kinemesh_all kinemesh_c EXPORT kinemesh-ta
 install(EXPORT kinemesh-targets NAMESPACE kinemesh:: DESTINATION ${KINEMESH_PACKAGE_DIR})
 # sim/cli/ belongs to the program; what includes CGAL is for our own sources.
 install(DIRECTORY ${KINEMESH_FOLDERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kinemesh
-  FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE PATTERN "report" EXCLUDE PATTERN "draw" EXCLUDE REGEX "/(cgal_triangulation|surface)\\.h$" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h"
+  PATTERN "cli" EXCLUDE PATTERN "report" EXCLUDE PATTERN "draw" EXCLUDE
+  REGEX "/(cgal_triangulation|surface)\\.h$" EXCLUDE)
 install(FILES c/kinemesh.h TYPE INCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md TYPE DOC)
 

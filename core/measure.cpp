@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/pair.h"
+#include "core/face_sweep.h"
 #include "core/parallel.h"
 
 namespace kinemesh {
@@ -53,19 +53,11 @@ struct Partial {
   }
 };
 
-constexpr int ahead = 64;  // faces whose corners are on their way from memory
-
-void fetch(const Mesh& mesh, int face) {
-  const auto& t = mesh.triangles()[face];
-  __builtin_prefetch(&mesh.position(t[1]));
-  __builtin_prefetch(&mesh.position(t[2]));
-}
-
 Partial measure(const Mesh& mesh, int begin, int end) {
   Partial partial;
   int first = none;  // of a pair
   for (int f = begin; f < end; ++f) {
-    if (f + ahead < end) fetch(mesh, f + ahead);
+    fetch_ahead(mesh.triangles(), mesh.positions(), f);
     if (mesh.is_padding(f)) continue;
     if (first == none) {
       first = f;

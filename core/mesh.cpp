@@ -19,9 +19,9 @@ std::vector<int> Mesh::faces_in_user_order() const {
   return by_number;
 }
 
-std::vector<Point> Mesh::user_positions() const {
+std::vector<Point> Mesh::in_user_order(std::span<const Point> positions) const {
   std::vector<Point> points(n_user_vertices_);
-  for (int u = 0; u < n_user_vertices_; ++u) points[u] = positions_[vertex_of_user_[u]];
+  for (int u = 0; u < n_user_vertices_; ++u) points[u] = positions[vertex_of_user_[u]];
   return points;
 }
 

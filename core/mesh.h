@@ -111,7 +111,8 @@ class Mesh {
   int vertex_of_user(int user) const { return vertex_of_user_[user]; }
   int user_face(int face) const { return is_padding(face) ? none : user_face_[face]; }
   std::vector<int> faces_in_user_order() const;  // the domain's faces, ascending by user_face
-  std::vector<Point> user_positions() const;
+  std::vector<Point> user_positions() const { return in_user_order(positions_); }
+  std::vector<Point> in_user_order(std::span<const Point> positions) const;  // given in the mesh's order
   MeshData domain() const;  // everything the user gave, as it is now
 
   // Rewrites patch.faces in place, re-using their handles and those of the edges between them; nothing else

@@ -1,8 +1,5 @@
 #include "core/safe_step.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -15,6 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace kinemesh {
 namespace {
@@ -145,41 +143,40 @@ class Search {
   }
 
  private:
-  static constexpr int grain = 2048;
-  using Range = tbb::blocked_range<int>;
+  static constexpr int grain = 2048;  // faces that are worth a task
 
   MovingFace face(int f) const {
     const auto [i, j, k] = faces_[f];
     return {{x0_[i], x0_[j], x0_[k]}, {x1_[i], x1_[j], x1_[k]}};
   }
-  Range all() const { return {0, static_cast<int>(faces_.size()), grain}; }
+  int n_faces() const { return static_cast<int>(faces_.size()); }
 
   double first_guess() const {
-    return tbb::parallel_reduce(
-        all(), 1.0,
-        [&](const Range& some, double first) {
-          for (int f = some.begin(); f < some.end(); ++f) first = std::min(first, guess(face(f)));
-          return first;
-        },
-        [](double a, double b) { return std::min(a, b); });
+    std::array<double, most_parts> first;
+    first.fill(1.0);
+    parallel_parts(n_faces(), grain, [&](int part, int begin, int end) {
+      for (int f = begin; f < end; ++f) first[part] = std::min(first[part], guess(face(f)));
+    });
+    return *std::min_element(first.begin(), first.end());
   }
 
   // Faces that may be flat in [0, until], ascending.
   std::vector<int> doubtful(double until) const {
     std::vector<char> is_doubtful(faces_.size());
-    tbb::parallel_for(all(), [&](const Range& some) {
-      for (int f = some.begin(); f < some.end(); ++f) is_doubtful[f] = !is_surely_upright(face(f), until);
+    parallel_parts(n_faces(), grain, [&](int, int begin, int end) {
+      for (int f = begin; f < end; ++f) is_doubtful[f] = !is_surely_upright(face(f), until);
     });
     std::vector<int> found;
-    for (int f = 0; f < static_cast<int>(faces_.size()); ++f)
+    for (int f = 0; f < n_faces(); ++f)
       if (is_doubtful[f]) found.push_back(f);
     return found;
   }
 
   SafeStep first_among(const std::vector<int>& faces) const {
     std::vector<double> roots(faces.size());
-    tbb::parallel_for(std::size_t{0}, faces.size(),
-                      [&](std::size_t i) { roots[i] = first_root(face(faces[i])); });
+    parallel_parts(static_cast<int>(faces.size()), 1, [&](int, int begin, int end) {
+      for (int i = begin; i < end; ++i) roots[i] = first_root(face(faces[i]));
+    });
     const auto first = std::min_element(roots.begin(), roots.end());
     if (first == roots.end()) return {infinity, none};
     return {*first, faces[first - roots.begin()]};

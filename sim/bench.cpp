@@ -13,8 +13,8 @@ namespace {
 
 class Competitor {
  public:
-  Competitor(const std::string& strategy, const RepairSpec& repair, const Mesh& mesh)
-      : options_{strategy, repair.allow_escaped, repair.retain, repair.quality}, stepper_(mesh, options_) {}
+  Competitor(const RepairSpec& repair, const Mesh& mesh)
+      : options_(stepper_options(repair)), stepper_(mesh, options_) {}
 
   const std::string& strategy() const { return options_.strategy; }
   const Mesh& mesh() const { return stepper_.mesh(); }
@@ -44,7 +44,11 @@ class Contest {
         mesh_(std::move(set_up.mesh)),
         now_(mesh_.positions().begin(), mesh_.positions().end()),
         next_(now_) {
-    for (const auto& strategy : strategies) competitors_.emplace_back(strategy, scenario.repair, mesh_);
+    for (const auto& strategy : strategies) {
+      RepairSpec repair = scenario.repair;
+      repair.strategy = strategy;
+      competitors_.emplace_back(repair, mesh_);
+    }
   }
 
   std::optional<std::string> run(const std::function<void(const Round&)>& tell) {
@@ -58,8 +62,9 @@ class Contest {
   std::optional<std::string> do_step(int step, const std::function<void(const Round&)>& tell) {
     const double t = time_.time_after(step - 1), dt = time_.time_after(step) - t;
     motion_.advance(now_, t, dt, static_cast<std::uint64_t>(step - 1), next_);
+    const auto positions = mesh_.in_user_order(next_);
     std::vector<StepOutcome> outcomes;
-    for (auto& competitor : competitors_) outcomes.push_back(competitor.step(in_user_order(next_), dt));
+    for (auto& competitor : competitors_) outcomes.push_back(competitor.step(positions, dt));
     const auto valid = std::find_if(outcomes.begin(), outcomes.end(), [](const auto& o) { return bool(o); });
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       if (!outcomes[i] && valid != outcomes.end())
@@ -69,13 +74,6 @@ class Contest {
     if (valid == outcomes.end()) return why_stopped(outcomes.front());
     std::swap(now_, next_);
     return std::nullopt;
-  }
-
-  std::vector<Point> in_user_order(const std::vector<Point>& positions) const {
-    std::vector<Point> all(mesh_.n_user_vertices());
-    for (int user = 0; user < mesh_.n_user_vertices(); ++user)
-      all[user] = positions[mesh_.vertex_of_user(user)];
-    return all;
   }
 
   TimeSpec time_;

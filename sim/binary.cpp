@@ -15,18 +15,8 @@ std::uint32_t checksum(std::string_view bytes) {
 }
 
 template <class Number>
-std::string bytes_of(Number number) {
-  Writer writer;
-  writer(number);
-  return writer.bytes();
-}
-
-template <class Number>
 Number number_at(std::string_view bytes, std::size_t place) {
-  Number number{};
-  Reader reader(bytes.substr(place, sizeof number));
-  reader(number);
-  return number;
+  return parsed<Number>(bytes.substr(place, sizeof(Number)));
 }
 
 [[noreturn]] void refuse_truncated(std::string_view file, const std::string& expected) {

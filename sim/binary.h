@@ -154,6 +154,23 @@ class Reader {
   std::string_view rest_;
 };
 
+// One thing as bytes, and back; throws InputError unless it takes all of them.
+template <class T>
+std::string bytes_of(const T& thing) {
+  Writer writer;
+  writer(thing);
+  return writer.bytes();
+}
+
+template <class T>
+T parsed(std::string_view bytes) {
+  Reader reader(bytes);
+  T thing;
+  reader(thing);
+  reader.expect_end();
+  return thing;
+}
+
 // What a sealed file is: the first eight bytes, the number of its layout, and what messages call it.
 struct Kind {
   std::string_view magic;

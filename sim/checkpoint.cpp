@@ -106,17 +106,11 @@ void rename_file(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 std::string format_checkpoint(const Checkpoint& checkpoint) {
-  binary::Writer writer;
-  members(writer, checkpoint);
-  return binary::seal(kind, writer.bytes());
+  return binary::seal(kind, binary::bytes_of(checkpoint));
 }
 
 Checkpoint parse_checkpoint(std::string_view content) {
-  binary::Reader reader(binary::unseal(kind, content));
-  Checkpoint checkpoint;
-  members(reader, checkpoint);
-  reader.expect_end();
-  return checkpoint;
+  return binary::parsed<Checkpoint>(binary::unseal(kind, content));
 }
 
 void write_checkpoint(const fs::path& directory, const Checkpoint& checkpoint) {

@@ -30,7 +30,7 @@ FailedStep failed_step(const Stepper& stepper, const Motion& motion, double end_
                  static_cast<std::uint64_t>(stepper.steps_done()), next);
   FailedStep step;
   step.mesh = state_of(mesh);
-  for (int u = 0; u < mesh.n_user_vertices(); ++u) step.moved.push_back(next[mesh.vertex_of_user(u)]);
+  step.moved = mesh.in_user_order(next);
   step.time = stepper.time();
   step.end_time = end_time;
   step.steps_done = stepper.steps_done();
@@ -52,17 +52,11 @@ StepOutcome replay(const FailedStep& step) {
 }
 
 std::string format_failed_step(const FailedStep& step) {
-  binary::Writer writer;
-  members(writer, step);
-  return binary::seal(kind, writer.bytes());
+  return binary::seal(kind, binary::bytes_of(step));
 }
 
 FailedStep parse_failed_step(std::string_view content) {
-  binary::Reader reader(binary::unseal(kind, content));
-  FailedStep step;
-  members(reader, step);
-  reader.expect_end();
-  return step;
+  return binary::parsed<FailedStep>(binary::unseal(kind, content));
 }
 
 }  // namespace kinemesh

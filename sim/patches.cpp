@@ -1,6 +1,7 @@
 #include "sim/patches.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "sim/binary.h"
@@ -32,12 +33,7 @@ constexpr std::string_view magic = "KMPATCH\n";
 constexpr std::uint32_t version = 1;
 constexpr std::uint64_t head_size = magic.size() + sizeof version;
 
-template <class T>
-std::string bytes_of(const T& thing) {
-  binary::Writer writer;
-  writer(thing);
-  return writer.bytes();
-}
+using binary::bytes_of;
 
 // LineFile adds the line feed that ends every block.
 template <class T>
@@ -47,13 +43,9 @@ std::string block_of(const T& thing) {
 }
 
 PatchesStart start_of(const Mesh& mesh) {
-  PatchesStart start{mesh.user_positions(), {}, {}};
-  for (const int face : mesh.faces_in_user_order()) {
-    const Triangle& t = mesh.triangles()[face];
-    start.triangles.push_back({mesh.user_vertex(t[0]), mesh.user_vertex(t[1]), mesh.user_vertex(t[2])});
-    start.labels.push_back(mesh.label(face));
-  }
-  return start;
+  MeshData data = mesh.domain();
+  data.labels.resize(data.triangles.size(), 0);
+  return {std::move(data.points), std::move(data.triangles), std::move(data.labels)};
 }
 
 FacePatch arrays_of(const ChangedPatch& changed) {
@@ -133,9 +125,7 @@ PatchesReader::PatchesReader(const std::filesystem::path& file)
   const auto first = block();
   if (!first) fail("ends before the mesh at the start");
   try {
-    binary::Reader reader(*first);
-    reader(start_);
-    reader.expect_end();
+    start_ = binary::parsed<PatchesStart>(*first);
   } catch (const InputError& what) {
     fail(std::string("is damaged: ") + what.what());
   }
@@ -171,16 +161,13 @@ std::optional<PatchesStep> PatchesReader::next() {
   const auto start = position_;
   const auto bytes = block();
   if (!bytes) return std::nullopt;
-  PatchesStep step;
   try {
-    binary::Reader reader(*bytes);
-    reader(step);
-    reader.expect_end();
+    auto step = binary::parsed<PatchesStep>(*bytes);
     check(step);
+    return step;
   } catch (const InputError& what) {
     fail("is damaged at byte " + std::to_string(start) + ": " + what.what());
   }
-  return step;
 }
 
 void PatchesReader::check(const PatchesStep& step) {

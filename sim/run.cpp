@@ -1,8 +1,6 @@
 #include "sim/run.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include <exception>
 
@@ -20,27 +18,23 @@
 #include "sim/series.h"
 #include "sim/setup.h"
 #include "sim/stop_signal.h"
+#include "sim/threads.h"
 
 namespace kinemesh {
 namespace {
-
-int thread_count(int wanted) {
-  if (wanted < 0) throw InputError("threads: a number not below 0 expected");
-  return wanted > 0 ? wanted : tbb::info::default_concurrency();
-}
 
 std::filesystem::path directory_of(const Scenario& scenario, const RunOptions& options) {
   return options.directory.empty() ? std::filesystem::path(scenario.name()) : options.directory;
 }
 
-RunPlan plan_of(const Scenario& scenario, const RunOptions& options, const Mesh& mesh) {
+RunPlan plan_of(const Scenario& scenario, const RunOptions& options, const Mesh& mesh, int threads) {
   RunPlan plan;
   plan.directory = directory_of(scenario, options);
   plan.strategy = scenario.repair.strategy;
   plan.steps = scenario.time.steps;
   plan.end_time = scenario.time.end;
   plan.is_adaptive = scenario.time.adaptive.has_value();
-  plan.threads = thread_count(options.threads);
+  plan.threads = threads;
   plan.vertices = mesh.n_user_vertices();
   plan.faces = mesh.n_user_faces();
   plan.padding_faces = mesh.n_faces() - mesh.n_user_faces();
@@ -63,7 +57,7 @@ class Runner {
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
-        stepper_(set_up.mesh, stepper_options(scenario)),
+        stepper_(set_up.mesh, options_of(scenario)),
         steps_(scenario.time),
         json_(open(directory_, scenario), scenario, options),
         log_(directory_),
@@ -82,7 +76,7 @@ class Runner {
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
-        stepper_(std::move(from.mesh), stepper_options(scenario), from.checkpoint.time, from.checkpoint.step),
+        stepper_(std::move(from.mesh), options_of(scenario), from.checkpoint.time, from.checkpoint.step),
         steps_(scenario.time, from.checkpoint.adaptive),
         json_(directory_, scenario, options),
         log_(directory_, from.checkpoint.logs),
@@ -114,15 +108,11 @@ class Runner {
     return directory;
   }
 
-  static StepperOptions stepper_options(const Scenario& scenario) {
-    return {scenario.repair.strategy, scenario.repair.allow_escaped, scenario.repair.retain,
-            scenario.repair.quality, max_region_share(scenario)};
-  }
-
-  static double max_region_share(const Scenario& scenario) {
+  static StepperOptions options_of(const Scenario& scenario) {
+    StepperOptions options = stepper_options(scenario.repair);
     const auto& adaptive = scenario.time.adaptive;
-    return adaptive && adaptive->max_region_share ? *adaptive->max_region_share
-                                                  : StepperOptions().max_region_share;
+    if (adaptive && adaptive->max_region_share) options.max_region_share = *adaptive->max_region_share;
+    return options;
   }
 
   void begin(RunPlan plan) {
@@ -203,7 +193,7 @@ class Runner {
       step.source = scenario_.file.string();
       step.message = message;
       step.detail = detail;
-      step.options = stepper_options(scenario_);
+      step.options = options_of(scenario_);
       step.origin = checkpoint_.origin;
       write_file_atomically(directory_ / "failed_step.bin", format_failed_step(step));
       observer_.note("the step is in " + (directory_ / "failed_step.bin").string() + ", for kinemesh replay");
@@ -305,8 +295,7 @@ std::string why_stopped(const StepOutcome& outcome) {
 }
 
 RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver& observer) {
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<size_t>(thread_count(options.threads)));
+  const ThreadLimit threads(options.threads);
   const auto directory = directory_of(scenario, options);
   check_run_directory(directory, scenario, options.force || options.resume);
   std::optional<Restart> restart;
@@ -317,7 +306,7 @@ RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver&
     restart = last_checkpoint(directory, to_toml(scenario));
   }
   SetUp made = set_up_for(scenario, restart);
-  RunPlan plan = plan_of(scenario, options, made.mesh);
+  RunPlan plan = plan_of(scenario, options, made.mesh, threads.count());
   if (restart) {
     plan.steps_done = restart->checkpoint.step;
     plan.start_time = restart->checkpoint.time;

@@ -130,6 +130,13 @@ void require_still_hull(const Scenario& scenario, const Mesh& mesh, const Border
 
 }  // namespace
 
+StepperOptions stepper_options(const RepairSpec& repair) {
+  return {.strategy = repair.strategy,
+          .allow_escaped = repair.allow_escaped,
+          .retain = repair.retain,
+          .quality = repair.quality};
+}
+
 SetUp set_up(const Scenario& scenario) {
   ReadResult read = data_of(scenario.mesh);
   SetUp made = set_up(scenario, mesh_of(scenario.mesh, read.mesh));

@@ -7,6 +7,7 @@
 #include "core/mesh.h"
 #include "motion/motion.h"
 #include "sim/scenario.h"
+#include "sim/stepper.h"
 
 namespace kinemesh {
 
@@ -15,6 +16,9 @@ struct SetUp {
   Motion motion;
   std::vector<std::string> notes;  // of the mesh's reader
 };
+
+// By what [repair] says.
+StepperOptions stepper_options(const RepairSpec& repair);
 
 // Post: the mesh is valid, every marker and label the scenario names is in it, and no border that is part of
 // a convex hull without frame moves. Throws InputError otherwise.

@@ -143,7 +143,9 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
 
 void Stepper::repair_moved(StepOutcome& outcome) {
   PositionsInPlace moved(mesh_, next_);
-  RepairOutcome repaired = strategy_->repair(mesh_, repair_);
+  RepairOptions options = repair_;
+  options.before = next_;
+  RepairOutcome repaired = strategy_->repair(mesh_, options);
   outcome.record.repair = std::move(repaired.record);
   outcome.defect = std::move(repaired.defect);
   if (outcome.defect) return;
@@ -179,8 +181,8 @@ std::optional<RegionsTooLarge> Stepper::excess(const RepairRecord& record) const
   return RegionsTooLarge{share, max_region_share_};
 }
 
-// Cannot fail, and is undone by observers only. The initial mesh may have any
-// shape, so the first step looks at all of it; next_ holds the positions before the step.
+// Cannot fail, and is undone by observers only. The initial mesh may have any shape, so the first step looks at
+// all of it; next_ holds the positions before the step.
 void Stepper::improve(RepairRecord& record) {
   const Stopwatch clock;
   const auto before = step_ == 0 ? std::span<const Point>() : std::span<const Point>(next_);

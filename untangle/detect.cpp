@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/pair.h"
+#include "core/face_sweep.h"
 #include "core/parallel.h"
 #include "core/predicates.h"
 
@@ -10,7 +10,6 @@ namespace kinemesh {
 namespace {
 
 constexpr int grain = 1 << 14;  // faces that are worth a task
-constexpr int ahead = 64;       // faces whose positions are on their way from memory
 
 // The two products of orientation(), {l, r}.
 Pair products(const Point* x, const Triangle& t) {
@@ -31,19 +30,13 @@ void judge(const Point* x, const Triangle* triangles, int f, Tangles& found) {
   (turn == Orientation::Clockwise ? found.inverted : found.flat).push_back(f);
 }
 
-void fetch(const Point* x, const Triangle& t) {
-  __builtin_prefetch(&x[t[1]]);
-  __builtin_prefetch(&x[t[2]]);
-}
-
 void sweep(const Mesh& mesh, int begin, int end, Tangles& found) {
   const Point* const x = mesh.positions().data();
   const Triangle* const triangles = mesh.triangles().data();
-  const int last = mesh.n_faces() - 1;
   int f = begin;
   for (; f + 1 < end; f += 2) {
-    fetch(x, triangles[std::min(f + ahead, last)]);
-    fetch(x, triangles[std::min(f + 1 + ahead, last)]);
+    fetch_ahead(mesh.triangles(), mesh.positions(), f);
+    fetch_ahead(mesh.triangles(), mesh.positions(), f + 1);
     const PairMask upright = proves_upright(x, triangles[f], triangles[f + 1]);
     if (upright[0] & upright[1]) [[likely]]
       continue;

@@ -13,10 +13,8 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   auto& record = outcome.record;
   const Stopwatch detecting;
   const auto tangles = detect(mesh);
-  const auto components = inverted_components(mesh, tangles.inverted);
   record.inverted = static_cast<int>(tangles.inverted.size());
   record.degenerate = static_cast<int>(tangles.flat.size());
-  record.components = components.count;
   record.detect_ms = detecting.milliseconds();
 
   const Stopwatch working;
@@ -24,6 +22,8 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   everything_.reset(mesh.n_faces());
   const int all = everything_.open();
   for (int face = 0; face < mesh.n_faces(); ++face) everything_.add(face, all);
+  auto line = describe_region(mesh, everything_, all);
+  record.components = line.components;
   const auto result = mesher_.run(mesh, everything_, all);
   record.triangulate_ms = mesher_.triangulator_ms() - cgal_before;
   if (result == RegionMesher::Result::NoMesh) {
@@ -38,7 +38,7 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   if (outcome.defect) return outcome;
 
   record.replaced = mesh.n_faces();
-  record.regions.push_back(describe_region(mesh, everything_, all));
+  record.regions.push_back(std::move(line));
   mesh.splice(patch);
   record.escaped = count_escaped(mesh, options);
   record.splice_ms = working.milliseconds() - record.triangulate_ms;

@@ -69,6 +69,8 @@ struct RepairOutcome {
 struct RepairOptions {
   bool allow_escaped = false;  // count vertices on the wrong side of border or interface instead of failing
   bool retain = false;         // keep upright faces of a region that need not be replaced
+  // Where the vertices came from, by the mesh's numbers: the mesh was valid there. Empty if nobody knows.
+  std::span<const Point> before{};
 };
 
 class Strategy {
@@ -77,10 +79,15 @@ class Strategy {
 
   virtual std::string_view name() const = 0;
 
-  // Makes every face upright by changing connectivity only, or changes nothing. Positions are read, never
-  // written. Deterministic, whatever the number of threads. May keep scratch memory between calls; one object
-  // per thread. Pre: finite positions; the border of the padded mesh is convex, as hull_defect and follow
-  // (core/frame.h) keep it.
+  // True if repair() may write positions, of vertices that are not fixed and on no constrained edge. All others
+  // change connectivity only.
+  virtual bool moves_vertices() const { return false; }
+
+  // Makes every face upright or changes nothing; does not throw but for lack of memory and for what a strategy
+  // says of itself. Each face that was rewritten is in `faces` of one of the record's regions and not in its
+  // `kept`: observers are told by these. Deterministic, whatever the number of threads. May keep scratch memory
+  // between calls; one object per thread. Pre: finite positions; the border of the padded mesh is convex, as
+  // hull_defect and follow (core/frame.h) keep it.
   [[nodiscard]] virtual RepairOutcome repair(Mesh& mesh, const RepairOptions& options) = 0;
 };
 

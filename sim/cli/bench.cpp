@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 #include <sys/resource.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,6 +12,7 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/csv_log.h"
+#include "sim/threads.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -161,9 +160,7 @@ int bench(const BenchArguments& arguments) {
   const Sweep sweep = arguments.sweep.empty() ? Sweep{"", {""}} : parse_sweep(arguments.sweep);
   const auto scenarios = scenarios_of(arguments, sweep);
   const fs::path directory = open_directory(arguments);
-  const tbb::global_control threads(
-      tbb::global_control::max_allowed_parallelism,
-      arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency());
+  const ThreadLimit threads(arguments.threads);
   BenchLog log(directory, sweep.key);
   int code = done;
   fmt::print("medians of the steps in ms; step: without the move; rebuild: CGAL's triangulation / step\n");

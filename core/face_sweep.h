@@ -1,5 +1,9 @@
-// Two doubles in one register, on any machine: what the sweeps over all faces are made of.
+// What sweeps over all faces are made of: two doubles in one register, on any machine, and positions that are
+// on their way from memory before they are asked for.
 #pragma once
+
+#include <algorithm>
+#include <span>
 
 #include "core/types.h"
 
@@ -28,12 +32,17 @@ inline Pair magnitude(Pair p) {
   return p < 0.0 ? -p : p;
 }
 
-inline Pair larger(Pair p, Pair q) {
-  return p > q ? p : q;
-}
-
 inline Pair smaller(Pair p, Pair q) {
   return p < q ? p : q;
+}
+
+// Asks for the corners of a face that comes a little after this one. The first follows by itself, since faces
+// are in the order of their lowest vertex.
+inline void fetch_ahead(std::span<const Triangle> triangles, std::span<const Point> positions, int face) {
+  constexpr std::size_t ahead = 64;
+  const auto& t = triangles[std::min(face + ahead, triangles.size() - 1)];
+  __builtin_prefetch(&positions[t[1]]);
+  __builtin_prefetch(&positions[t[2]]);
 }
 
 }  // namespace kinemesh
