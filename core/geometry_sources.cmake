@@ -1,5 +1,6 @@
 set(KINEMESH_GEOMETRY_SOURCES
   exact.cpp
+  kinetic_predicates.cpp
   predicates.cpp
   refine.cpp
   safe_step.cpp

@@ -11,6 +11,7 @@
 #include "untangle/global_walk.h"
 #include "untangle/overlapping_mesher.h"
 #include "untangle/records.h"
+#include "untangle/undo.h"
 
 namespace kinemesh {
 namespace {
@@ -23,27 +24,6 @@ Orientation turn(const Mesh& mesh, int face) {
 bool is_upright(const Mesh& mesh, int face) {
   return turn(mesh, face) == Orientation::CounterClockwise;
 }
-
-// Takes splices back, the last one first, unless told that they stay.
-class Undo {
- public:
-  explicit Undo(Mesh& mesh) : mesh_(mesh) {}
-  Undo(const Undo&) = delete;
-  Undo& operator=(const Undo&) = delete;
-  ~Undo() {
-    for (auto patch = patches_.rbegin(); patch != patches_.rend(); ++patch) mesh_.splice(*patch);
-  }
-
-  void splice(const Patch& patch) {
-    patches_.push_back(mesh_.inverse_of(patch));
-    mesh_.splice(patch);
-  }
-  void keep() { patches_.clear(); }
-
- private:
-  Mesh& mesh_;
-  std::vector<Patch> patches_;
-};
 
 // Nothing has been done, but time has been taken.
 RepairRecord without_counts(const RepairRecord& record) {

@@ -1,5 +1,6 @@
 set(KINEMESH_GEOMETRY_TESTS
   exact_oracle.cpp
+  kinetic_predicates_test.cpp
   predicates_test.cpp
   contacts_test.cpp
   safe_step_test.cpp
