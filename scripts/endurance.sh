@@ -11,31 +11,24 @@ cmake --build --preset release --target endurance
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-cat > "$folder/rotor.toml" <<TOML
-[mesh]
-shape = "square"
-[[motion]]
+# scenario NAME: what moves is read from the standard input
+scenario() {
+  {
+    printf '[mesh]\nshape = "square"\n[[motion]]\n'
+    cat
+    printf '[time]\ndt = 0.01\nsteps = 1\n[repair]\nquality = "delaunay"\n'
+  } > "$folder/$1.toml"
+}
+
+scenario rotor <<TOML
 field = "rotor"
 center = [0.5, 0.5]
 radius = 0.3
 rate = 6.283185307179586
-[time]
-dt = 0.01
-steps = 1
-[repair]
-quality = "delaunay"
 TOML
-cat > "$folder/brownian.toml" <<TOML
-[mesh]
-shape = "square"
-[[motion]]
+scenario brownian <<TOML
 field = "brownian"
 diffusion = 2e-5
-[time]
-dt = 0.01
-steps = 1
-[repair]
-quality = "delaunay"
 TOML
 for name in rotor brownian; do
   echo "$name"

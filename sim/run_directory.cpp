@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
@@ -18,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 10> fixed_names = {
-    "scenario.toml",  "run.json",       "steps.csv",           "regions.csv",
-    "mesh.pvd",       "checkpoint.bin", "checkpoint_prev.bin", "checkpoint_next.bin",
+    "scenario.toml",   "run.json",       "steps.csv",           "regions.csv",
+    "mesh.pvd",        "checkpoint.bin", "checkpoint_prev.bin", "checkpoint_next.bin",
     "failed_step.bin", "patches.bin"};
 
 bool is_mesh_of_series(std::string_view name) {
@@ -71,6 +72,13 @@ void refuse_to_replace(const fs::path& input, const fs::path& directory) {
     fail(input, "the run would replace this file; give it another name, or another folder with -o");
 }
 
+// Of `kinemesh report`: somebody else's page may have the name, too.
+bool is_report(const fs::path& file) {
+  std::string head(300, ' ');
+  std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find("<title>kinemesh report</title>") != std::string::npos;
+}
+
 }  // namespace
 
 std::string mesh_file_name(int step) {
@@ -118,6 +126,14 @@ void clear_run_directory(const fs::path& directory) {
       fs::remove(directory / name);
     for (const auto& file : files_that(directory, is_not_scenario)) fs::remove(file);
     fs::remove(directory / "scenario.toml");
+  });
+  remove_report(directory);
+}
+
+void remove_report(const fs::path& directory) {
+  const fs::path file = directory / "report.html";
+  with_file_errors(directory, [&] {
+    if (is_report(file)) fs::remove(file);
   });
 }
 

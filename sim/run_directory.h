@@ -28,6 +28,9 @@ void check_run_directory(const std::filesystem::path& directory, const Scenario&
 // first, and what says whose files they are last. Throws InputError naming the path.
 void clear_run_directory(const std::filesystem::path& directory);
 
+// Removes the page `kinemesh report` has made of what was in the folder before. Throws InputError naming the path.
+void remove_report(const std::filesystem::path& directory);
+
 // Removes what an interrupted run wrote after its checkpoint: meshes not named here, the last mesh, a failed
 // step, files left half written. Throws InputError naming the path.
 void remove_later_meshes(const std::filesystem::path& directory, std::span<const std::string> kept);

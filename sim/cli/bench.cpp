@@ -12,6 +12,7 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/csv_log.h"
+#include "sim/run_directory.h"
 #include "sim/threads.h"
 
 namespace kinemesh::cli {
@@ -141,6 +142,7 @@ fs::path open_directory(const BenchArguments& arguments) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw InputError(directory.string(), 0, "cannot be made: " + error.message());
+  remove_report(directory);
   return directory;
 }
 

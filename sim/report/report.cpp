@@ -160,33 +160,41 @@ class Maker {
     return {{"time", times}, {"median", median}, {"p90", p90}, {"max", most}, {"count", count}};
   }
 
+  // Columns that steps.csv does not have are what a sweep has varied: numbers, if all of its values are.
   void add_bench() {
-    const fs::path file = directory_ / "bench.csv";
     auto needed = needed_of_steps;
     needed.push_back("accepted");
-    const Table rows = read_table(file, needed, {"strategy"});
-    if (!rows.texts.contains("strategy")) throw InputError(file.string(), 1, "a column strategy expected");
+    auto required = needed;
+    required.push_back("strategy");
+    const auto usual = names_in(steps_csv_header);
+    const Table rows = read_table(directory_ / "bench.csv", required, [&](const std::string& name) {
+      return std::ranges::find(usual, name) == usual.end();
+    });
     Json bench;
     bench["rows"] = columns(rows, needed);
-    bench["rows"]["strategy"] = rows.texts.at("strategy");
-    bench["strategies"] = Json::array();
-    for (const std::string& name : rows.texts.at("strategy"))
-      if (std::ranges::find(bench["strategies"], Json(name)) == bench["strategies"].end())
-        bench["strategies"].push_back(name);
+    bench["strategies"] = distinct(rows.texts.at("strategy"));
     bench["swept"] = Json::array();
-    const auto usual = names_in(steps_csv_header);
-    for (const auto& [name, values] : rows.numbers) {
-      if (std::ranges::find(usual, name) != usual.end() || !varies(values)) continue;
-      bench["swept"].push_back(name);
-      bench["rows"][name] = values;
+    for (const auto& [name, values] : rows.texts) {
+      const auto numbers = all_numbers(values);
+      bench["rows"][name] = numbers ? Json(*numbers) : Json(values);
+      if (name != "strategy" && distinct(values).size() > 1) bench["swept"].push_back(name);
     }
     if (rows.size == 0) note("The benchmark has no rows yet.");
     data_["bench"] = rows.size > 0 ? bench : Json();
   }
 
-  static bool varies(const std::vector<double>& values) {
-    return std::ranges::all_of(values, [](double v) { return std::isfinite(v); }) &&
-           std::ranges::any_of(values, [&](double v) { return v != values.front(); });
+  static std::vector<std::string> distinct(const std::vector<std::string>& values) {
+    std::vector<std::string> found;
+    for (const std::string& value : values)
+      if (std::ranges::find(found, value) == found.end()) found.push_back(value);
+    return found;
+  }
+
+  static std::optional<std::vector<double>> all_numbers(const std::vector<std::string>& values) {
+    std::vector<double> numbers;
+    for (const std::string& value : values) numbers.push_back(number_of(value));
+    const bool are_finite = std::ranges::all_of(numbers, [](double v) { return std::isfinite(v); });
+    return are_finite ? std::optional(numbers) : std::nullopt;
   }
 
   // The player's frames as base64, and their description in data_; every step, or one of two, four...

@@ -4,68 +4,90 @@
 #include <charconv>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "core/io/atomic_file.h"
 
 namespace kinemesh::report {
 namespace {
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  std::vector<std::string_view> cells;
-  for (std::size_t start = 0;;) {
-    const std::size_t comma = line.find(',', start);
-    cells.push_back(line.substr(start, comma - start));
-    if (comma == std::string_view::npos) return cells;
-    start = comma + 1;
-  }
-}
+// The records of a CSV file [Shafranovich 2005]: fields in quotes may hold commas, line ends, and quotes written twice.
+class Records {
+ public:
+  Records(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
 
-double number_of(std::string_view cell) {
-  double value = 0.0;
-  const auto result = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  const bool is_number = result.ec == std::errc() && result.ptr == cell.data() + cell.size();
-  return is_number ? value : std::numeric_limits<double>::quiet_NaN();
-}
+  // False at the end, and where a last record is not whole: the first one needs no line end.
+  bool read(std::vector<std::string>& fields) {
+    fields.assign(1, "");
+    first_line_ = line_;
+    bool is_quoted = false;
+    while (at_ < text_.size()) {
+      const char c = text_[at_++];
+      line_ += c == '\n';
+      if (c == '"') {
+        if (!is_quoted && at_ > 1 && text_[at_ - 2] == '"') fields.back() += '"';
+        is_quoted = !is_quoted;
+      } else if (is_quoted) {
+        fields.back() += c;
+      } else if (c == '\n') {
+        return true;
+      } else if (c == ',') {
+        fields.emplace_back();
+      } else if (c != '\r') {
+        fields.back() += c;
+      }
+    }
+    if (is_quoted && line_ > first_line_) fail("a quote that does not end");
+    return first_line_ == 1 && !std::exchange(is_at_end_, true);
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(file_.string(), first_line_, what);
+  }
+
+ private:
+  std::string_view text_;
+  const std::filesystem::path& file_;
+  std::size_t at_ = 0;
+  int line_ = 1, first_line_ = 1;
+  bool is_at_end_ = false;
+};
 
 }  // namespace
 
+double number_of(std::string_view field) {
+  double value = 0.0;
+  const auto result = std::from_chars(field.data(), field.data() + field.size(), value);
+  const bool is_number = result.ec == std::errc() && result.ptr == field.data() + field.size();
+  return is_number ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
 Table read_table(const std::filesystem::path& file, const std::vector<std::string>& required,
-                 const std::vector<std::string>& text_columns) {
+                 const std::function<bool(const std::string&)>& is_text) {
   const std::string content = read_file(file);
+  Records records(content, file);
   Table table;
-  std::vector<std::vector<double>*> numbers;
-  std::vector<std::vector<std::string>*> texts;
-  std::string_view rest = content;
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::size_t end = rest.find('\n');
-    if (end == std::string_view::npos && line > 1) break;
-    const auto cells = cells_of(rest.substr(0, end));
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (line == 1) {
-      table.names.assign(cells.begin(), cells.end());
-      for (const std::string& name : table.names) {
-        const bool is_text = std::ranges::find(text_columns, name) != text_columns.end();
-        numbers.push_back(is_text ? nullptr : &table.numbers[name]);
-        texts.push_back(is_text ? &table.texts[name] : nullptr);
-      }
-      continue;
-    }
-    if (cells.size() != numbers.size())
-      throw InputError(
-          file.string(), line,
-          std::to_string(cells.size()) + " columns, " + std::to_string(numbers.size()) + " expected");
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (numbers[i])
-        numbers[i]->push_back(number_of(cells[i]));
-      else
-        texts[i]->emplace_back(cells[i]);
-    }
-    ++table.size;
-  }
+  records.read(table.names);
   for (const std::string& name : required)
     if (std::ranges::find(table.names, name) == table.names.end())
-      throw InputError(file.string(), 1, "a column " + name + " expected");
+      records.fail("a column " + name + " expected");
+  std::vector<std::vector<double>*> numbers;
+  std::vector<std::vector<std::string>*> texts;
+  for (const std::string& name : table.names) {
+    numbers.push_back(is_text(name) ? nullptr : &table.numbers[name]);
+    texts.push_back(is_text(name) ? &table.texts[name] : nullptr);
+  }
+  for (std::vector<std::string> fields; records.read(fields); ++table.size) {
+    if (fields.size() != table.names.size())
+      records.fail(std::to_string(fields.size()) + " columns, " + std::to_string(table.names.size()) +
+                   " expected");
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (numbers[i])
+        numbers[i]->push_back(number_of(fields[i]));
+      else
+        texts[i]->push_back(fields[i]);
+    }
+  }
   return table;
 }
 

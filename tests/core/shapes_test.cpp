@@ -380,7 +380,8 @@ TEST_P(Umbilics, cover_the_shadow_more_than_once) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Umbilics, testing::Values(2, 3, 4, 5, 8, 13, 32));
+INSTANTIATE_TEST_SUITE_P(Shapes, Umbilics, testing::Values(2, 3, 4, 5, 8, 13, 32),
+                         testing::PrintToStringParamName());
 
 TEST(Shapes, umbilics_take_only_sensible_k) {
   EXPECT_THROW(make_umbilic(1, 1000), InputError);

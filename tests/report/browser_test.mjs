@@ -163,7 +163,12 @@ const tests = {
     const sweep = await open("sweep");
     assert.equal(await sweep.page.locator("#bench-plots .plot").count(), 4);
     assert.deepEqual(await sweep.page.evaluate(() => window.page.benchPlots.list[0].data[0]), [0.01, 0.02, 0.04]);
-    assert.deepEqual(sweep.complaints, []);
+    assert.equal(await sweep.page.locator("#bench-table tr").count(), 1 + 3 * 2);
+    const lists = await open("lists");
+    assert.deepEqual(await lists.page.evaluate(() => { const plot = window.page.benchPlots.list[0]; return [plot.data[0], plot.axes[0]._values]; }), [[0, 1], ["none", "delaunay"]]);
+    writeFileSync(`${folder}/whole_lists.png`, await lists.page.screenshot({ fullPage: true }));
+    writeFileSync(`${folder}/whole_sweep.png`, await sweep.page.screenshot({ fullPage: true }));
+    assert.deepEqual([...lists.complaints, ...sweep.complaints], []);
     const narrow = await open("rotor", { viewport: { width: 480, height: 800 }, colorScheme: "dark" });
     assert(await narrow.page.evaluate(() => document.documentElement.classList.contains("dark") && document.documentElement.scrollWidth <= 480), "fits a narrow window, dark where that is wanted");
     assert.deepEqual([...complaints, ...narrow.complaints], []);

@@ -1,23 +1,17 @@
 """kinemesh draw: what is in its figures, and what it refuses."""
 
 import json
-import os
 import random
 import re
 import shutil
 import struct
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["KINEMESH_SOURCE_DIR"])
-PROGRAM = os.environ["KINEMESH_PROGRAM"]
+from runs import program, run_rotor
+
 N = 14  # cells a side
-
-
-def program(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
 def tangled_grid():
@@ -85,11 +79,9 @@ class Drawings(unittest.TestCase):
         self.assertLess(len(part), len(whole) / 2)
 
     def test_a_step_of_a_run(self):
-        (self.folder / "s.toml").write_text('[mesh]\nshape = "square"\nvertices = 200\n[[motion]]\nfield = "jitter"\n'
-                                            "amplitude = 0.4\n[time]\ndt = 1\nsteps = 4\n[output]\npatches = true\n")
-        self.assertEqual(program("run", self.folder / "s.toml", "-o", self.folder / "run", "-q").returncode, 0)
+        run_rotor(self.folder, "run")
         svg = self.draw("--step", 3, mesh="run").decode()
-        self.assertIn("step 3, time 3", svg)
+        self.assertIn("step 3, time 0.06", svg)
         replaced = int(re.search(r"(\d+) replaced", svg).group(1))
         row = (self.folder / "run/steps.csv").read_text().split("\n")
         self.assertLessEqual(replaced, int(row[3].split(",")[row[0].split(",").index("replaced")]))
@@ -112,8 +104,7 @@ class Drawings(unittest.TestCase):
                   (["-o", "f.svg", "--step", "1"], "patches.bin expected"),
                   ([".", "-o", "f.svg"], ".: a folder: --step says which")]
         for arguments, words in wanted:
-            done = subprocess.run([PROGRAM, "draw", *([] if "." in arguments else ["m.off"]), *arguments], cwd=self.folder, capture_output=True,
-                                  text=True, check=False)
+            done = program("draw", *([] if "." in arguments else ["m.off"]), *arguments, cwd=self.folder)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn(words, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)

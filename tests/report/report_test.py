@@ -12,33 +12,12 @@ import unittest
 import zlib
 from pathlib import Path
 
-ROOT = Path(os.environ["KINEMESH_SOURCE_DIR"])
-PROGRAM = os.environ["KINEMESH_PROGRAM"]
+from runs import ROOT, program, run_rotor
+
 WEB = ROOT / "sim/report/web"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 # Where node's packages for the tests are kept between runs.
 MODULES = Path(os.environ["KINEMESH_TEST_DIR"])
-
-SCENARIO = """[mesh]
-shape = "square"
-vertices = 600
-[[motion]]
-field = "rotor"
-center = [0.5, 0.5]
-radius = 0.3
-rate = 6.0
-[time]
-dt = 0.02
-steps = 12
-[output]
-every = 3
-patches = true
-"""
-
-
-def program(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
-
 
 def npm(*arguments, cwd):
     done = subprocess.run(["npm", *arguments], cwd=cwd, capture_output=True, text=True, check=False)
@@ -124,10 +103,9 @@ class Reports(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp())
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        (cls.folder / "rotor.toml").write_text(SCENARIO)
-        cls.run_to("rotor")
-        cls.run_to("one", "time.steps=1")
-        cls.run_to("series", "output.patches=false")
+        run_rotor(cls.folder)
+        run_rotor(cls.folder, "one", "time.steps=1")
+        run_rotor(cls.folder, "series", "output.patches=false")
         cls.copy("no_meshes", "run.json", "scenario.toml", "steps.csv", "regions.csv")
         cls.copy("none", "run.json", "steps.csv", "regions.csv", "mesh_000000.vtu")
         for name in ("steps.csv", "regions.csv"):
@@ -135,12 +113,6 @@ class Reports(unittest.TestCase):
             path.write_text(path.read_text().split("\n")[0] + "\n")
         cls.make_many()
         cls.make_bench()
-
-    @classmethod
-    def run_to(cls, name, *overrides):
-        sets = [word for key in overrides for word in ("--set", key)]
-        done = program("run", cls.folder / "rotor.toml", "-o", cls.folder / name, "-q", *sets)
-        assert done.returncode == 0, done.stderr
 
     @classmethod
     def copy(cls, name, *files):
@@ -210,6 +182,28 @@ class Reports(unittest.TestCase):
         bench = self.report("sweep")[1]["bench"]
         self.assertEqual((bench["swept"], bench["strategies"]), (["time.dt"], ["global", "remesh"]))
         self.assertEqual(set(bench["rows"]["time.dt"]), {0.01, 0.02, 0.04})
+
+    def test_a_sweep_may_be_of_lists_and_names(self):
+        for key, values in (("motion.0.center", ("[0.5,0.5]", "[0.4,0.5]")), ("repair.quality", ("none", "delaunay"))):
+            done = program("bench", self.folder / "rotor.toml", "--strategies", "global,auto", "--set", "time.steps=2",
+                           "--sweep", f"{key}={','.join(values)}", "-o", self.folder / "lists", "--force")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            bench = self.report("lists")[1]["bench"]
+            self.assertEqual((bench["swept"], bench["strategies"]), ([key], ["global", "auto"]))
+            self.assertEqual(bench["rows"][key], [values[0]] * 4 + [values[1]] * 4)
+
+    def test_fields_in_quotes_hold_anything(self):
+        header, row = (self.folder / "rotor/steps.csv").read_text().split("\n")[:2]
+        (self.folder / "quoted").mkdir(exist_ok=True)
+        file = self.folder / "quoted/bench.csv"
+        file.write_bytes("\r\n".join(['strategy,"a ""b"", c",' + header, 'global,"x, ""y""\nz",' + row, 'global,"",' + row,
+                                      'global,"half,' + row]).encode())
+        bench = self.report("quoted")[1]["bench"]
+        self.assertEqual(bench["swept"], ['a "b", c'])
+        self.assertEqual(bench["rows"]['a "b", c'], ['x, "y"\nz', ""])
+        file.write_text(f'strategy,{header}\nglobal,{row}\n"global,{row}\nglobal,{row}\n')
+        done = program("report", self.folder / "quoted")
+        self.assertEqual((done.returncode, "bench.csv:3: a quote that does not end\n" in done.stderr), (2, True))
 
     def test_thinning_keeps_the_peak_and_is_told(self):
         _, data = self.report("many")
@@ -285,9 +279,10 @@ class Reports(unittest.TestCase):
         shutil.copytree(here / "reference", MODULES / "reference", dirs_exist_ok=True)
         if not npm("ci", "--no-audit", "--no-fund", "--prefer-offline", cwd=MODULES):
             self.skipTest("npm has no way to its packages")
-        for name in ("rotor", "one", "none", "many", "no_meshes", "series", "bench", "sweep"):
+        for name in ("rotor", "one", "none", "many", "no_meshes", "series", "bench", "sweep", "lists"):
             self.report(name)
         self.test_a_page_keeps_to_its_size()
+        self.test_a_sweep_may_be_of_lists_and_names()
         command = ["node", "browser_test.mjs", CHROMIUM, str(self.folder)]
         done = subprocess.run(command, cwd=MODULES, capture_output=True, text=True, check=False)
         if "KINEMESH_KEEP_PICTURES" in os.environ:

@@ -1,34 +1,18 @@
 """Reads a run's series with VTK's own reader, where python3-vtk9 is here."""
 
-import os
-import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
+from runs import run_rotor
+
 try:
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 except ImportError:
     print("skipped: python3-vtk9 is not here")
     sys.exit(77)
-
-PROGRAM = os.environ["KINEMESH_PROGRAM"]
-SCENARIO = """[mesh]
-shape = "square"
-vertices = 400
-[[motion]]
-field = "rotor"
-center = [0.5, 0.5]
-radius = 0.3
-rate = 6.0
-[time]
-dt = 0.02
-steps = 6
-[output]
-every = 1
-"""
 
 
 def read(path):
@@ -48,10 +32,9 @@ class Series(unittest.TestCase):
     def test_vtk_reads_what_paraview_shows(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = Path(folder)
-            (folder / "s.toml").write_text(SCENARIO)
-            subprocess.run([PROGRAM, "run", folder / "s.toml", "-o", folder / "out", "-q"], check=True)
+            run_rotor(folder, "out", "output.every=1")
             sets = xml.parse(folder / "out/mesh.pvd").getroot().findall(".//DataSet")
-            self.assertEqual([float(s.get("timestep")) for s in sets], [n * 0.02 for n in range(7)])
+            self.assertEqual([float(s.get("timestep")) for s in sets], [n * 0.02 for n in range(13)])
             rows = (folder / "out/regions.csv").read_text().split("\n")[1:-1]
             first = before = None
             n_replaced = 0

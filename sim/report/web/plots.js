@@ -26,24 +26,26 @@ class Plots {
   }
 
   // lines: [{ label, values, fill, shown }]; `shown` for the legend where `values` are sums.
-  add(title, x, lines, { log = false, xLabel = null, xLog = false, sync = true } = {}) {
+  // categories: names of x = 0, 1, ..., where x is no number.
+  add(title, x, lines, { log = false, xLabel = null, xLog = false, sync = true, categories = null } = {}) {
     const holder = document.createElement("div");
     holder.className = "plot";
     this.place.append(holder);
     const series = lines.map(({ label, fill, shown }, i) => ({
       label, stroke: HUES[i % HUES.length], width: fill ? 1 : 1.8, fill: fill ? HUES[i % HUES.length] + "cc" : undefined,
-      points: { show: x.length < 60, size: 5 }, spanGaps: false,
+      points: { show: x.length < 60, size: categories ? 8 : 5 }, spanGaps: false, paths: categories ? () => null : undefined,
       value: (plot, value, index, at) => (at == null ? "–" : short(shown ? shown[at] : value)),
     }));
     // A logarithm has no place for 0: such points are left out.
     const cleaned = (values) => (log ? values.map((v) => (v > 0 ? v : null)) : values);
     const positive = log && lines.some((line) => line.values.some((v) => v > 0));
+    const named = categories && { splits: () => x, values: () => categories };
     const options = {
       title, width: this.width(holder), height: 176,
       cursor: { sync: sync ? { key: SYNC } : undefined, drag: { x: true, y: false } },
-      scales: { x: { time: false, distr: xLog ? 3 : 1 }, y: { distr: positive ? 3 : 1 } },
-      axes: [this.axis({ size: 34, label: xLabel ?? undefined, labelSize: xLabel ? 16 : 0 }), this.axis()],
-      series: [{ label: xLabel ?? "time", value: (plot, value) => short(value) }, ...series],
+      scales: { x: { time: false, distr: xLog ? 3 : 1, range: categories ? [-0.5, x.length - 0.5] : undefined }, y: { distr: positive ? 3 : 1 } },
+      axes: [this.axis({ size: 34, label: xLabel ?? undefined, labelSize: xLabel ? 16 : 0, ...named }), this.axis()],
+      series: [{ label: xLabel ?? "time", value: (plot, value) => (categories ? categories[value] ?? "–" : short(value)) }, ...series],
       hooks: { draw: [(plot) => this.mark(plot, sync)] },
     };
     const plot = new uPlot(options, [x, ...lines.map((line) => cleaned(line.values))], holder);
@@ -100,32 +102,42 @@ const BENCH = [["total_ms", "time of a step, ms", true], ["share", "replaced, % 
 // rows: columns by name, one strategy after the other. `swept`: names of the columns that a sweep has varied.
 function addBenchPlots(plots, { rows, strategies, swept }) {
   rows.share = rows.replaced.map((n, i) => (rows.faces[i] > 0 ? (100 * n) / rows.faces[i] : null));
-  const curves = (x, of, column, whole) => strategies.map((name) => {
+  const curves = (x, of, column) => strategies.map((name) => {
     const found = new Map();
-    rows.strategy.forEach((s, i) => { if (s === name && whole(i)) found.has(of(i)) ? found.get(of(i)).push(rows[column][i]) : found.set(of(i), [rows[column][i]]); });
+    rows.strategy.forEach((s, i) => { if (s === name) found.has(of(i)) ? found.get(of(i)).push(rows[column][i]) : found.set(of(i), [rows[column][i]]); });
     return { label: name, values: x.map((value) => median(found.get(value) ?? [])) };
   });
-  const axisOf = (of) => [...new Set(rows.strategy.map((_, i) => of(i)))].sort((a, b) => a - b);
+  const axisOf = (of) => {  // numbers in order, names as they come
+    const all = [...new Set(rows.strategy.map((_, i) => of(i)))];
+    return typeof all[0] === "string" ? all : all.sort((a, b) => a - b);
+  };
   for (const [column, title, log] of BENCH) {
     if (swept.length === 0) {
       const x = axisOf((i) => rows.time[i]);
-      plots.add(title, x, curves(x, (i) => rows.time[i], column, () => true), { log, xLabel: "time", sync: false });
+      plots.add(title, x, curves(x, (i) => rows.time[i], column), { log, xLabel: "time", sync: false });
     }
     for (const key of swept) {
-      const x = axisOf((i) => rows[key][i]), isLog = x[0] > 0 && x[x.length - 1] > 3 * x[0];
-      plots.add(`${title}, median`, x, curves(x, (i) => rows[key][i], column, () => true), { log, xLog: isLog, xLabel: key, sync: false });
+      const all = axisOf((i) => rows[key][i]), categories = typeof all[0] === "string" ? all : null;
+      const x = categories ? all.map((_, i) => i) : all, isLog = !categories && x[0] > 0 && x[x.length - 1] > 3 * x[0];
+      const place = categories ? (i) => all.indexOf(rows[key][i]) : (i) => rows[key][i];
+      plots.add(`${title}, median`, x, curves(x, place, column), { log, xLog: isLog, xLabel: key, sync: false, categories });
     }
   }
 }
 
-function benchTable({ rows, strategies }) {
+// One row a strategy, and a value of what is swept.
+function benchTable({ rows, strategies, swept }) {
   const table = document.createElement("table");
   const add = (cells, kind) => { const row = table.insertRow(); for (const cell of cells) { const c = document.createElement(kind); c.textContent = cell; row.append(c); } };
-  add(["strategy", "steps", "median ms", "replaced %", "worst angle", "not accepted"], "th");
-  for (const name of strategies) {
-    const of = (column) => rows[column].filter((_, i) => rows.strategy[i] === name);
-    const angles = of("min_angle_deg").filter((v) => v != null);
-    add([name, of("step").length, short(median(of("total_ms"))), short(median(of("share"))), short(angles.reduce((a, b) => Math.min(a, b), 180)), of("accepted").filter((v) => v === 0).length], "td");
+  add(["strategy", ...swept, "steps", "median ms", "replaced %", "worst angle", "without valid mesh"], "th");
+  const cases = [...new Map(rows.strategy.map((_, i) => [JSON.stringify(swept.map((key) => rows[key][i])), swept.map((key) => rows[key][i])])).values()];
+  for (const values of cases) {
+    for (const name of strategies) {
+      const isOf = (i) => rows.strategy[i] === name && swept.every((key, k) => rows[key][i] === values[k]);
+      const of = (column) => rows[column].filter((_, i) => isOf(i));
+      const angles = of("min_angle_deg").filter((v) => v != null);
+      add([name, ...values, of("step").length, short(median(of("total_ms"))), short(median(of("share"))), short(angles.reduce((a, b) => Math.min(a, b), 180)), of("accepted").filter((v) => v === 0).length], "td");
+    }
   }
   return table;
 }

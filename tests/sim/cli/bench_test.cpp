@@ -114,7 +114,9 @@ TEST_F(Bench, RefusesWhatItCannotDo) {
   ASSERT_EQ(run({"bench", "s.toml", "--strategies", "global"}).code, 0);
   EXPECT_EQ(files(), (std::vector<std::string>{"s-bench", "s.toml"}));
   expect_error(run({"bench", "s.toml", "--strategies", "global"}), 2, {"s-bench", "--force"});
+  ASSERT_EQ(run({"report", "s-bench"}).code, 0);
   EXPECT_EQ(run({"bench", "s.toml", "--strategies", "global", "--force"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("s-bench/report.html")));
 }
 
 }  // namespace

@@ -152,6 +152,17 @@ TEST_F(Run, FolderWithARunIsRefusedWithoutForce) {
   expect_complete("s", 4);
 }
 
+TEST_F(Run, ForceRemovesTheReportOfWhatItReplaces) {
+  write("s.toml", jitter_toml);
+  ASSERT_EQ(run({"run", "s.toml"}).code, 0);
+  ASSERT_EQ(run({"report", "s"}).code, 0);
+  ASSERT_EQ(run({"run", "s.toml", "--force"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("s/report.html")));
+  write("s/report.html", "<title>somebody else's</title>");
+  ASSERT_EQ(run({"run", "s.toml", "--force"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("s/report.html")));
+}
+
 TEST_F(Run, ThreadsDoNotChangeTheResult) {
   write("s.toml", jitter_toml);
   ASSERT_EQ(run({"run", "s.toml", "-o", "one", "--threads", "1"}).code, 0);

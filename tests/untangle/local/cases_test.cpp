@@ -84,7 +84,7 @@ TEST_P(HardCase, EqualsBruteForce) {
 
 class Umbilic : public ::testing::TestWithParam<int> {};
 
-INSTANTIATE_TEST_SUITE_P(All, Umbilic, ::testing::Values(2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(All, Umbilic, ::testing::Values(2, 3, 4), ::testing::PrintToStringParamName());
 
 // Lemma 2.6, with the sheet of the plane glued on. KINEMESH_UMBILICS in the environment says how many jitters
 // of each; one otherwise.
