@@ -8,11 +8,6 @@
 namespace kinemesh {
 namespace {
 
-// By the number users know them by; those of padding only at the end.
-bool seeded_before(const RegionRecord& a, const RegionRecord& b) {
-  return std::pair(a.seed == none, a.seed) < std::pair(b.seed == none, b.seed);
-}
-
 // So many stay in the cache from their walk to their patch.
 constexpr int faces_at_hand = 4096;
 
@@ -71,7 +66,7 @@ void GlobalUntangling::splice(Mesh& mesh, RepairRecord& record) {
     record.replaced += static_cast<int>(work.patch.faces.size());
     record.regions.push_back(std::move(work.record));
   }
-  std::sort(record.regions.begin(), record.regions.end(), seeded_before);
+  std::sort(record.regions.begin(), record.regions.end(), is_seeded_before);
   for (int region = 0; region < repair_.regions().count(); ++region) mesh.splice(repair_.patch(region).patch);
 }
 

@@ -98,6 +98,10 @@ RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set) {
   return record;
 }
 
+bool is_seeded_before(const RegionRecord& a, const RegionRecord& b) {
+  return std::pair(a.seed == none, a.seed) < std::pair(b.seed == none, b.seed);
+}
+
 int count_escaped(const Mesh& mesh, const RepairOptions& options) {
   if (!options.allow_escaped) return 0;
   std::vector<bool> escaped(mesh.n_vertices(), false);

@@ -12,6 +12,9 @@ namespace kinemesh {
 // faces ascend.
 RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set);
 
+// The order of regions in a record: by the number users know their seed by, those of padding only at the end.
+bool is_seeded_before(const RegionRecord& a, const RegionRecord& b);
+
 // Vertices on no constrained edge that lie in another label than their home. None unless that is allowed.
 int count_escaped(const Mesh& mesh, const RepairOptions& options);
 

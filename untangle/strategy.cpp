@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "untangle/auto.h"
 #include "untangle/global.h"
+#include "untangle/kinetic.h"
 #include "untangle/local.h"
 #include "untangle/remesh.h"
 
@@ -23,6 +24,9 @@ std::vector<StrategyInfo>& registry() {
       info<LocalUntangling>(
           "local", "replaces the minimum region around one inverted face after the other; always ends valid"),
       info<FullRemesh>("remesh", "triangulates all vertices anew at every step (CGAL); always ends valid"),
+      info<KineticUntangling>(
+          "kinetic",
+          "flips an edge whenever a face collapses on its way through the step; always ends valid"),
       info<AutomaticRepair>("auto",
                             "global, or remesh where most of the mesh would be replaced; always ends valid"),
   };

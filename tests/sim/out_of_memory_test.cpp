@@ -106,7 +106,7 @@ TEST_P(OutOfMemory, UndoesTheStepWhereverItHappens) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, OutOfMemory,
-                         testing::Combine(testing::Values("global", "local", "remesh", "auto"),
+                         testing::Combine(testing::Values("global", "local", "remesh", "kinetic", "auto"),
                                           testing::Values("none", "delaunay", "smooth")),
                          [](const auto& param) {
                            return std::string(std::get<0>(param.param)) + "_" + std::get<1>(param.param);

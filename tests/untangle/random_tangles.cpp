@@ -11,6 +11,12 @@ namespace {
 
 using Map = std::function<Point(const Point&)>;
 
+Tangle built(const char* about, Mesh mesh) {
+  snap_frame(mesh);
+  std::vector<Point> before(mesh.positions().begin(), mesh.positions().end());
+  return {about, std::move(mesh), std::move(before)};
+}
+
 Map turn(const Point& centre, double angle, const Point& shift = {0, 0}) {
   return [=](const Point& p) {
     const Point d = p - centre;
@@ -59,14 +65,13 @@ double any_angle(Random& random) {
 }
 
 Tangle square(Random& random) {
-  Tangle t{"square", build_mesh(random_square(8 + random.below(50), random))};
+  Tangle t = built("square", build_mesh(random_square(8 + random.below(50), random)));
   jitter(t.mesh, random);
   return t;
 }
 
 Tangle framed(Random& random) {
-  Tangle t{"framed", build_mesh(random_square(8 + random.below(40), random), {.frame = 0.6})};
-  snap_frame(t.mesh);
+  Tangle t = built("framed", build_mesh(random_square(8 + random.below(40), random), {.frame = 0.6}));
   const auto rigid =
       turn({0.5, 0.5}, any_angle(random), {random.between(-0.5, 0.5), random.between(-0.5, 0.5)});
   move_constrained(t.mesh, rigid);
@@ -75,7 +80,7 @@ Tangle framed(Random& random) {
 }
 
 Tangle u_with_padding(Random& random) {
-  Tangle t{"u", build_mesh(u_shape(5 + random.below(50), random))};
+  Tangle t = built("u", build_mesh(u_shape(5 + random.below(50), random)));
   jitter(t.mesh, random);
   return t;
 }
@@ -84,7 +89,8 @@ Tangle turning_hole(Random& random) {
   const Point centre{0.5, 0.5};
   const std::vector<Loop> loops{rectangle({0, 0}, {1, 1}),
                                 reversed(circle(centre, 0.2, 5 + random.below(12)))};
-  Tangle t{"turning hole", build_mesh(domain_of(loops, random_points(random, 10 + random.below(50), 0, 1)))};
+  Tangle t =
+      built("turning hole", build_mesh(domain_of(loops, random_points(random, 10 + random.below(50), 0, 1))));
   const auto spin = turn(centre, any_angle(random));
   move_constrained(t.mesh, [&](const Point& p) { return glm::distance(p, centre) < 0.3 ? spin(p) : p; });
   jitter(t.mesh, random);
@@ -95,9 +101,9 @@ Tangle nested_islands(Random& random) {
   const Point centre{0.5, 0.5};
   const std::vector<Loop> loops{rectangle({0, 0}, {1, 1}), reversed(circle(centre, 0.4, 9)),
                                 circle(centre, 0.25, 8), reversed(circle(centre, 0.12, 6))};
-  Tangle t{"nested islands", build_mesh(domain_of(loops, random_points(random, 20 + random.below(50), 0, 1)),
-                                        {.frame = random.one_in(2) ? 0.5 : 0.0})};
-  snap_frame(t.mesh);
+  Tangle t =
+      built("nested islands", build_mesh(domain_of(loops, random_points(random, 20 + random.below(50), 0, 1)),
+                                         {.frame = random.one_in(2) ? 0.5 : 0.0}));
   const auto shift =
       turn(centre, any_angle(random), {random.between(-0.08, 0.08), random.between(-0.08, 0.08)});
   move_constrained(t.mesh, [&](const Point& p) { return glm::distance(p, centre) < 0.3 ? shift(p) : p; });
@@ -107,9 +113,9 @@ Tangle nested_islands(Random& random) {
 
 Tangle bow_tie(Random& random) {
   const std::vector<Loop> loops{rectangle({0, 0}, {1, 1}), rectangle({1, 1}, {2, 2})};
-  Tangle t{"bow-tie", build_mesh(domain_of(loops, random_points(random, 10 + random.below(40), 0.01, 1.99)),
-                                 {.frame = 0.5})};
-  snap_frame(t.mesh);
+  Tangle t = built(
+      "bow-tie",
+      build_mesh(domain_of(loops, random_points(random, 10 + random.below(40), 0.01, 1.99)), {.frame = 0.5}));
   const auto swing = turn({1, 1}, random.between(-1.5, 1.5));
   const auto carry = [&](const Point& p) { return p.x > 1 ? swing(p) : p; };
   move_constrained(t.mesh, carry);
@@ -134,8 +140,7 @@ Tangle interface(Random& random) {
     const Point middle = (data.points[a] + data.points[b] + data.points[c]) / 3.0;
     data.labels.push_back(is_left_of_all(ring, middle) ? 7 : 3);
   }
-  Tangle t{"interface", build_mesh(data, {.frame = random.one_in(2) ? 0.3 : 0.0})};
-  snap_frame(t.mesh);
+  Tangle t = built("interface", build_mesh(data, {.frame = random.one_in(2) ? 0.3 : 0.0}));
   const auto spin =
       turn(centre, any_angle(random), {random.between(-0.15, 0.15), random.between(-0.15, 0.15)});
   move_constrained(t.mesh, [&](const Point& p) { return glm::distance(p, centre) < 0.35 ? spin(p) : p; });
@@ -157,8 +162,7 @@ Tangle archipelago(Random& random) {
     islands.push_back(rectangle(low, snapped(low + size)));
     inside.push_back(snapped(low + size * Point(random.between(0.1, 0.9), random.between(0.1, 0.9))));
   }
-  Tangle t{"archipelago", build_mesh(domain_of(islands, inside), {.frame = 0.4})};
-  snap_frame(t.mesh);
+  Tangle t = built("archipelago", build_mesh(domain_of(islands, inside), {.frame = 0.4}));
   const int change_cells = random.below(3) == 0 ? 1 + random.below(n * n) : 0;
   const double step = random.between(0, 1);
   std::vector<Point> shift;
@@ -225,8 +229,7 @@ Tangle lattice(Random& random) {
     }
   }
   const bool has_frame = random.one_in(4);
-  Tangle t{"lattice", build_mesh(data, {.frame = has_frame ? 0.25 : 0.0})};
-  snap_frame(t.mesh);
+  Tangle t = built("lattice", build_mesh(data, {.frame = has_frame ? 0.25 : 0.0}));
   return t;
 }
 
@@ -237,7 +240,7 @@ Tangle random_lattice(Random& random) {
     inside.push_back({1.0 + random.below(size - 1), 1.0 + random.below(size - 1)});
   }
   const double width = size;
-  return {"random lattice", build_mesh(domain_of({rectangle({0, 0}, {width, width})}, inside))};
+  return built("random lattice", build_mesh(domain_of({rectangle({0, 0}, {width, width})}, inside)));
 }
 
 }  // namespace
@@ -318,8 +321,7 @@ Tangle polyomino_tangle(std::uint64_t seed) {
     }
   }
   data.triangles = kept;
-  Tangle t{"polyomino", build_mesh(data, {.frame = 1.0})};
-  snap_frame(t.mesh);
+  Tangle t = built("polyomino", build_mesh(data, {.frame = 1.0}));
   jump_anywhere(t.mesh, random);
   return t;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/build.h"
 #include "tests/core/sample_meshes.h"
@@ -14,7 +15,8 @@ namespace kinemesh::test {
 
 struct Tangle {
   std::string about;
-  Mesh mesh;  // built, then moved
+  Mesh mesh;                  // built, then moved
+  std::vector<Point> before;  // where its vertices were
 };
 
 // In general position but for freaks: squares, U-shapes, holes that turn, islands nested in holes, bow-ties,

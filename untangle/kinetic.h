@@ -1,0 +1,45 @@
+// Kinetic untangling: follow the vertices through the step, and flip an edge whenever a face collapses.
+#pragma once
+
+#include <span>
+
+#include "untangle/face_sets.h"
+#include "untangle/global_walk.h"
+#include "untangle/kinetic_flips.h"
+#include "untangle/region_repair.h"
+#include "untangle/strategy.h"
+
+namespace kinemesh {
+
+// Vertices move from RepairOptions::before to where they are, on straight lines; the mesh is one all the way
+// [Agarwal 2008, §1]. Unlike the other strategies' result, this one's depends on the way: a face that has
+// turned over and back again may have cost a flip. Where no flip can follow, because a vertex has met a
+// constrained edge, the hull or another vertex on its way, the connectivity reached is taken to the end, and
+// what is tangled there is replaced as `global` does: so a mesh is found whenever there is one, and only then.
+//
+// Regions are what connected flips, and these replacements, have rewritten; `fallback` marks those with a
+// replacement. Counts of tangles are of the connectivity before at the positions after, so that a region may
+// have none. `retain` has no meaning. Cost: O(n) to find the faces that collapse, O(log n) for each event and
+// flip; memory for those only, about 500 bytes each.
+class KineticUntangling : public Strategy {
+ public:
+  std::string_view name() const override { return "kinetic"; }
+
+  // Throws InputError if options.before does not hold a position for each vertex.
+  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
+
+  const KineticCounts& counts() const { return counts_; }  // of the last repair
+
+ private:
+  [[nodiscard]] std::optional<Defect> replace_tangles(Undo& undo, bool allow_escaped);
+  void find_regions(const Mesh& mesh, std::span<const Edge> flipped);
+  std::vector<int> rewritten_faces(std::span<const Edge> flipped);
+  std::vector<RegionRecord> describe_regions(const Mesh& mesh);
+
+  GlobalWalk walk_;
+  RegionRepair replaced_;
+  FaceSets regions_;
+  KineticCounts counts_;
+};
+
+}  // namespace kinemesh
