@@ -68,7 +68,10 @@ class VtuWriter {
     TextBuffer head;
     write_head(head);
     std::string out = head.take();
-    out.reserve(out.size() + 64 + data_bytes());
+    const std::size_t padding = padding_behind(out.size());
+    out.reserve(out.size() + padding + 64 + data_bytes());
+    out.append(padding, ' ');
+    out += '_';
     for (const Section& section : sections_) {
       for (const Array& array : section.arrays) {
         append_value(out, static_cast<std::uint64_t>(array.bytes));
@@ -189,7 +192,15 @@ class VtuWriter {
       }
       head << "</" << section.element << ">\n";
     }
-    head << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    head << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n";
+  }
+
+  // Older VTKs read XML in blocks of 4096 bytes. A recent libexpat tells of a tag not before it has seen twice as
+  // much; so such a VTK (that of Debian 12's ParaView among them) hands it the block of the last tag and the one
+  // behind it before it knows that data follow. With spaces there it does not take data for XML.
+  static std::size_t padding_behind(std::size_t head) {
+    constexpr std::size_t block = 4096;
+    return (head + block - 1) / block * block + block - head;
   }
 
   static void write_array(TextBuffer& head, const Array& array, std::size_t offset) {

@@ -136,8 +136,8 @@ class Maker {
   }
 
   std::span<const RegionRow> regions_of(int step) const {
-    const auto range = std::ranges::equal_range(regions_, step, {}, &RegionRow::step);
-    return {range.begin(), range.end()};
+    const auto first = std::ranges::lower_bound(regions_, step, {}, &RegionRow::step);
+    return {first, std::ranges::upper_bound(first, regions_.end(), step, {}, &RegionRow::step)};
   }
 
   // At the steps of the plots.

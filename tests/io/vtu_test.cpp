@@ -243,6 +243,30 @@ TEST(Vtu, RefusesTruncatedAppendedData) {
   refused(whole.substr(0, whole.size() - 12) + "</VTKFil>\n", 0, "the file ends, expected </VTKFile>");
 }
 
+constexpr std::string_view tag_of_data = "<AppendedData encoding=\"raw\">";
+
+// Where the first block starts, behind an underscore.
+std::size_t data_of(const std::string& text) {
+  return text.find('_', text.find(tag_of_data) + tag_of_data.size()) + 1;
+}
+
+// What VTK reads before it knows of the data: the block with the tag's end, and the next. Markers of all lengths
+// bring that end to every place in a block.
+TEST(Vtu, NoDataComeInTheBlocksThatVtkMayTakeForXml) {
+  MeshData mesh = square();
+  mesh.markers = {{"", {{0, 1}}}};
+  for (int length = 1; length <= 4100; ++length) {
+    mesh.markers[0].name += 'm';
+    const std::string text = format_vtu(mesh);
+    const std::size_t end = text.find(tag_of_data) + tag_of_data.size(), data = data_of(text);
+    ASSERT_EQ(text.find_first_not_of(" \n", end), data - 1);
+    ASSERT_GE(data - 1, (end - 1) / 4096 * 4096 + 2 * 4096);
+    if (length % 100 == 0) {
+      ASSERT_TRUE(same(mesh, parse(text, Format::Vtu).mesh, Format::Vtu));
+    }
+  }
+}
+
 // The contract: version, header type, no gaps, offsets in order, a line end before the end tag.
 TEST(Vtu, BlocksFollowEachOtherInTheOrderOfTheirOffsets) {
   EXPECT_TRUE(rc::check("layout", [](std::uint64_t seed) {
@@ -253,8 +277,7 @@ TEST(Vtu, BlocksFollowEachOtherInTheOrderOfTheirOffsets) {
         format_vtu(mesh, {.time = 0.5, .displacement = mesh.points, .replaced = replaced, .region = region});
     RC_ASSERT(text.find("version=\"1.0\"") != std::string::npos);
     RC_ASSERT(text.find("header_type=\"UInt64\"") != std::string::npos);
-    const std::string marker = "<AppendedData encoding=\"raw\">\n_";
-    const std::size_t data = text.find(marker) + marker.size();
+    const std::size_t data = data_of(text);
     std::size_t offset = 0;
     for (std::size_t at = 0; (at = text.find(" offset=\"", at)) < data; at += 9) {
       RC_ASSERT(std::stoull(text.substr(at + 9)) == offset);
@@ -269,8 +292,7 @@ TEST(Vtu, BlocksFollowEachOtherInTheOrderOfTheirOffsets) {
 // meshio looks arrays up by their offsets while it overwrites them by 4/3 of the bytes before, in whole
 // groups of three.
 bool confuses_meshio(const std::string& text) {
-  const std::string marker = "<AppendedData encoding=\"raw\">\n_";
-  const std::size_t data = text.find(marker) + marker.size();
+  const std::size_t data = data_of(text);
   std::vector<std::size_t> replaced;
   std::size_t theirs = 0;
   for (std::size_t at = 0; (at = text.find(" offset=\"", at)) < data; at += 9) {
