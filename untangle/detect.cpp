@@ -64,7 +64,7 @@ Tangles detect(const Mesh& mesh) {
   return all;
 }
 
-Components inverted_components(const Mesh& mesh, const std::vector<int>& inverted) {
+Components inverted_components(const Mesh& mesh, std::span<const int> inverted) {
   const auto rank_of = [&](int face) {
     const auto found = std::lower_bound(inverted.begin(), inverted.end(), face);
     return found != inverted.end() && *found == face ? static_cast<int>(found - inverted.begin()) : none;

@@ -1,6 +1,7 @@
 // Finds the faces a step has turned over.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/mesh.h"
@@ -24,6 +25,6 @@ struct Components {
   std::vector<int> of;  // parallel to Tangles::inverted
   int count = 0;
 };
-Components inverted_components(const Mesh& mesh, const std::vector<int>& inverted);
+Components inverted_components(const Mesh& mesh, std::span<const int> inverted);
 
 }  // namespace kinemesh

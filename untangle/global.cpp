@@ -59,15 +59,23 @@ std::optional<RepairOutcome> GlobalUntangling::repair_within(const Limits& limit
 // Not before all regions have been re-meshed, so that a failure has nothing to undo.
 void GlobalUntangling::splice(Mesh& mesh, RepairRecord& record) {
   record.regions.reserve(repair_.regions().count());
-  for (int region = 0; region < repair_.regions().count(); ++region) {
+  for (const int region : regions_by_seed()) {
     auto& work = repair_.patch(region);
-    if (work.record.faces.empty()) continue;  // absorbed
     record.components += work.record.components;
     record.replaced += static_cast<int>(work.patch.faces.size());
     record.regions.push_back(std::move(work.record));
   }
-  std::sort(record.regions.begin(), record.regions.end(), is_seeded_before);
   for (int region = 0; region < repair_.regions().count(); ++region) mesh.splice(repair_.patch(region).patch);
+}
+
+// Those that have not been absorbed.
+std::vector<int> GlobalUntangling::regions_by_seed() {
+  const auto record = [&](int region) -> const RegionRecord& { return repair_.patch(region).record; };
+  std::vector<int> regions;
+  for (int region = 0; region < repair_.regions().count(); ++region)
+    if (!record(region).faces.empty()) regions.push_back(region);
+  std::ranges::stable_sort(regions, is_seeded_before, record);
+  return regions;
 }
 
 }  // namespace kinemesh

@@ -25,6 +25,7 @@ class GlobalUntangling : public Strategy {
 
  private:
   void splice(Mesh& mesh, RepairRecord& record);
+  std::vector<int> regions_by_seed();
 
   GlobalWalk walk_;
   RegionRepair repair_;

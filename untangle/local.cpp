@@ -114,7 +114,8 @@ std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mes
   for (const int face : exploration.faces()) sets_.add(face, set);
 
   Region region;
-  region.record = describe_region(mesh, sets_, set);
+  hole_.dig(mesh, sets_, set);
+  region.record = describe_region(mesh, hole_);
   region.record.seed = mesh.user_face(seed);
   region.record.explored = exploration.explored();
   region.record.gamma_first_stable = exploration.gamma_first_stable();
@@ -130,18 +131,18 @@ std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mes
 // False where degenerate positions are in the way.
 bool LocalUntangling::remesh(const Mesh& mesh, const LocalExploration& exploration,
                              const RepairOptions& options, Region& region) {
-  const auto result = mesher_.run(mesh, sets_, 0);
+  const auto result = mesher_.run(mesh, hole_);
   if (result == RegionMesher::Result::NoMesh) {
     region.defect = mesher_.defect();
   } else if (result == RegionMesher::Result::Done) {
     auto faces = std::move(mesher_.new_faces());
     if (!options.retain || !remesh_rest(mesh, options, region))
-      finish_region(mesh, sets_, options, std::move(faces), region);
+      finish_region(mesh, sets_, hole_, options, std::move(faces), region);
   } else {
     auto faces = mesh_overlapping(mesh, sets_, 0, exploration.cells());
     if (!faces) return false;
     region.record.self_overlap = true;
-    finish_region(mesh, sets_, options, std::move(*faces), region);
+    finish_region(mesh, sets_, hole_, options, std::move(*faces), region);
   }
   return true;
 }
@@ -149,16 +150,17 @@ bool LocalUntangling::remesh(const Mesh& mesh, const LocalExploration& explorati
 // False where not all goes well: then there is more to replace, or a reason that the whole region tells.
 bool LocalUntangling::remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region) {
   if (!retention_.run(mesh, sets_, 0)) return false;
-  if (mesher_.run(mesh, retention_.rest(), 0) != RegionMesher::Result::Done) return false;
-  finish_region(mesh, retention_.rest(), options, std::move(mesher_.new_faces()), region);
+  rest_.dig(mesh, retention_.rest(), 0);
+  if (mesher_.run(mesh, rest_) != RegionMesher::Result::Done) return false;
+  finish_region(mesh, retention_.rest(), rest_, options, std::move(mesher_.new_faces()), region);
   if (!region.defect) region.record.kept = retention_.kept();
   return !region.defect;
 }
 
-void LocalUntangling::finish_region(const Mesh& mesh, const FaceSets& sets, const RepairOptions& options,
-                                    NewFaces faces, Region& region) {
+void LocalUntangling::finish_region(const Mesh& mesh, const FaceSets& sets, const Hole& hole,
+                                    const RepairOptions& options, NewFaces faces, Region& region) {
   region.doubled_edges = avoid_doubled_edges(mesh, sets, 0, faces);
-  region.defect = finisher_.run(mesh, sets, 0, faces, options.allow_escaped, region.patch);
+  region.defect = finisher_.run(mesh, hole, faces, options.allow_escaped, region.patch);
 }
 
 // One walk serves all seeds: each region that is replaced lies in one piece, whose border stays.

@@ -44,10 +44,11 @@ class LocalUntangling : public Strategy {
   bool remesh(const Mesh& mesh, const LocalExploration& exploration, const RepairOptions& options,
               Region& region);
   bool remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region);
-  void finish_region(const Mesh& mesh, const FaceSets& sets, const RepairOptions& options, NewFaces faces,
-                     Region& region);
+  void finish_region(const Mesh& mesh, const FaceSets& sets, const Hole& hole, const RepairOptions& options,
+                     NewFaces faces, Region& region);
 
   FaceSets sets_;  // the region at hand
+  Hole hole_, rest_;
   RegionMesher mesher_;
   Finisher finisher_;
   Retention retention_;

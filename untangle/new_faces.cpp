@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <stdexcept>
 
 #include "core/predicates.h"
@@ -84,6 +83,15 @@ class LabelFlood {
   std::optional<Defect> defect_;
 };
 
+// What nearly every region has: then there is nothing to spread.
+bool has_one_label(const Mesh& mesh, const Hole& hole, const NewFaces& faces) {
+  const int label = mesh.label(hole.faces.front());
+  return std::ranges::all_of(hole.faces, [&](int face) { return mesh.label(face) == label; }) &&
+         std::ranges::all_of(faces.constraints, [](const Triangle& c) {
+           return c == Triangle{none, none, none};
+         });
+}
+
 // The vertex with the smallest number of those that have, or none.
 int first_escaped(const Mesh& mesh, const NewFaces& faces) {
   int first = none;
@@ -98,49 +106,61 @@ int first_escaped(const Mesh& mesh, const NewFaces& faces) {
 
 class PatchBuilder {
  public:
-  void build(const Mesh& mesh, const FaceSets& sets, int set, const NewFaces& faces, Patch& patch) {
+  void build(const Mesh& mesh, const Hole& hole, const NewFaces& faces, Patch& patch) {
     mesh_ = &mesh;
-    sets_ = &sets;
-    set_ = set;
+    hole_ = &hole;
     faces_ = &faces;
     patch_ = &patch;
-    if (faces.size() != static_cast<int>(sets.faces(set).size()))
-      throw std::logic_error("a region changed its size");
+    if (faces.size() != hole.size()) throw std::logic_error("a region changed its size");
     order();
+    place();
     assign_slots();
-    collect_free_edges();
     connect();
     certify();
     patch.outgoing.clear();
   }
 
  private:
-  // By label and corners: independent of how the triangulation was found, and close to memory order.
+  // A new face by its label and the side from its smallest corner, which is no other's.
+  struct Key {
+    int label, first, second, face;
+    auto operator<=>(const Key&) const = default;
+  };
+
+  // Independent of how the triangulation was found, and close to memory order.
   void order() {
-    shift_.resize(faces_->size());
-    keys_.resize(faces_->size());
-    for (int t = 0; t < faces_->size(); ++t) {
-      auto corners = faces_->triangles[t];
-      const auto smallest = std::min_element(corners.begin(), corners.end());
-      shift_[t] = static_cast<int>(smallest - corners.begin());
-      std::rotate(corners.begin(), smallest, corners.end());
-      keys_[t] = {faces_->labels[t], corners};
+    keys_.clear();
+    for (int face = 0; face < faces_->size(); ++face) {
+      const auto& corners = faces_->triangles[face];
+      const int k = smallest(corners);
+      keys_.push_back({faces_->labels[face], corners[k], corners[following(k)], face});
     }
-    order_.resize(faces_->size());
-    std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(), [&](int t, int u) { return keys_[t] < keys_[u]; });
-    patch_->labels.clear();
-    patch_->triangles.clear();
-    for (const int t : order_) {
-      patch_->labels.push_back(keys_[t].first);
-      patch_->triangles.push_back(keys_[t].second);
+    std::sort(keys_.begin(), keys_.end());
+  }
+
+  // Writes the new faces in their order, each from its smallest corner on.
+  void place() {
+    const std::size_t n = keys_.size();
+    patch_->labels.resize(n);
+    patch_->triangles.resize(n);
+    across_.resize(n);
+    constraints_.resize(n);
+    place_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const int face = keys_[i].face, k = smallest(faces_->triangles[face]);
+      patch_->labels[i] = keys_[i].label;
+      patch_->triangles[i] = turned(faces_->triangles[face], k);
+      across_[i] = turned(faces_->neighbours[face], k);
+      constraints_[i] = turned(faces_->constraints[face], k);
+      place_[face] = static_cast<int>(i);
     }
   }
 
   void assign_slots() {
-    slots_ = sets_->faces(set_);
-    const auto key = [&](int f) { return std::pair(mesh_->label(f), f); };
-    std::sort(slots_.begin(), slots_.end(), [&](int f, int g) { return key(f) < key(g); });
+    slots_ = hole_->faces;
+    const auto by_label = [&](int f, int g) { return mesh_->label(f) < mesh_->label(g); };
+    if (!std::is_sorted(slots_.begin(), slots_.end(), by_label))
+      std::stable_sort(slots_.begin(), slots_.end(), by_label);
     const std::size_t n = slots_.size();
     spare_faces_.clear();
     spare_slots_.clear();
@@ -156,61 +176,50 @@ class PatchBuilder {
     for (std::size_t i = 0; i < spare_faces_.size(); ++i) patch_->faces[spare_faces_[i]] = spare_slots_[i];
   }
 
-  // The edges between two faces of the set.
-  void collect_free_edges() {
-    patch_->edges.clear();
-    old_constraints_.clear();
-    for (const int face : sets_->faces(set_)) {
-      for (const int side : mesh_->sides(face)) {
-        const int across = mesh_->face_of(Mesh::opposite(side));
-        const bool inner = across != none && sets_->set_of(across) == set_;
-        if (!inner || side > Mesh::opposite(side)) continue;
-        const int edge = Mesh::edge_of(side);
-        patch_->edges.push_back(edge);
-        if (mesh_->constraint_of(edge) != none) old_constraints_.push_back(mesh_->constraint_of(edge));
-      }
-    }
-    std::sort(patch_->edges.begin(), patch_->edges.end());
-  }
-
-  int& halfedge_along(int t, int k) { return patch_->halfedges[place_[t]][(k - shift_[t] + 3) % 3]; }
-
   // Every side gets its half-edge: on the border the one that stays, inside the next of the edges set free.
   void connect() {
-    place_.resize(faces_->size());
-    for (int i = 0; i < faces_->size(); ++i) place_[order_[i]] = i;
+    patch_->edges = hole_->inner;
     patch_->constraints.clear();
-    patch_->halfedges.assign(faces_->size(), {none, none, none});
-    for (const int t : order_) {
-      for (int j = 0; j < 3; ++j) connect(t, (j + shift_[t]) % 3);
+    patch_->halfedges.assign(keys_.size(), {none, none, none});
+    for (int i = 0; i < faces_->size(); ++i) {
+      for (int k = 0; k < 3; ++k) connect(i, k);
     }
     if (patch_->constraints.size() != patch_->edges.size()) throw std::logic_error("a region lost an edge");
   }
 
-  void connect(int t, int k) {
-    const int across = faces_->neighbours[t][k];
-    if (across < 0) halfedge_along(t, k) = ~across;
-    if (halfedge_along(t, k) != none) return;
+  void connect(int i, int k) {
+    int& halfedge = patch_->halfedges[i][k];
+    if (across_[i][k] < 0) halfedge = ~across_[i][k];
+    if (halfedge != none) return;
     if (patch_->constraints.size() == patch_->edges.size()) throw std::logic_error("a region gained an edge");
-    const int edge = patch_->edges[patch_->constraints.size()];
-    patch_->constraints.push_back(faces_->constraints[t][k]);
-    halfedge_along(t, k) = 2 * edge;
-    halfedge_along(across, side_back(t, k)) = 2 * edge + 1;
+    const int edge = patch_->edges[patch_->constraints.size()], beyond = place_[across_[i][k]];
+    patch_->constraints.push_back(constraints_[i][k]);
+    halfedge = 2 * edge;
+    patch_->halfedges[beyond][side_back(i, k, beyond)] = 2 * edge + 1;
   }
 
-  // The side of the neighbour that lies on side k of t.
-  int side_back(int t, int k) const {
-    const int across = faces_->neighbours[t][k];
+  // The side of the face beyond that lies on side k of the one at place i.
+  int side_back(int i, int k, int beyond) const {
+    const int face = keys_[i].face, start = patch_->triangles[i][following(k)];
     for (int j = 0; j < 3; ++j) {
-      if (faces_->neighbours[across][j] == t &&
-          faces_->triangles[across][j] == faces_->triangles[t][(k + 1) % 3])
-        return j;
+      if (across_[beyond][j] == face && patch_->triangles[beyond][j] == start) return j;
     }
     throw std::logic_error("new faces do not agree on their neighbours");
   }
 
+  void certify() {
+    certify_constraints();
+    for (const auto& [a, b, c] : patch_->triangles) {
+      const auto turn = orientation(mesh_->position(a), mesh_->position(b), mesh_->position(c));
+      if (turn != Orientation::CounterClockwise) throw std::logic_error("a new face is not upright");
+    }
+  }
+
   // Each constrained edge is there again, once.
   void certify_constraints() {
+    old_constraints_.clear();
+    for (const int side : hole_->inner_constraints)
+      old_constraints_.push_back(mesh_->constraint_of(Mesh::edge_of(side)));
     new_constraints_.clear();
     std::copy_if(patch_->constraints.begin(), patch_->constraints.end(), std::back_inserter(new_constraints_),
                  [](int constraint) { return constraint != none; });
@@ -219,27 +228,27 @@ class PatchBuilder {
     if (new_constraints_ != old_constraints_) throw std::logic_error("a region lost a constrained edge");
   }
 
-  void certify() {
-    certify_constraints();
-
-    for (const auto& [a, b, c] : patch_->triangles) {
-      const auto turn = orientation(mesh_->position(a), mesh_->position(b), mesh_->position(c));
-      if (turn != Orientation::CounterClockwise) throw std::logic_error("a new face is not upright");
-    }
+  static int following(int k) { return k == 2 ? 0 : k + 1; }
+  static int smallest(const Triangle& t) {
+    const int k = t[1] < t[0] ? 1 : 0;
+    return t[2] < t[k] ? 2 : k;
+  }
+  static Triangle turned(const Triangle& t, int k) {
+    const int l = following(k);
+    return {t[k], t[l], t[following(l)]};
   }
 
   const Mesh* mesh_ = nullptr;
-  const FaceSets* sets_ = nullptr;
-  int set_ = none;
+  const Hole* hole_ = nullptr;
   const NewFaces* faces_ = nullptr;
   Patch* patch_ = nullptr;
-  std::vector<int> shift_;  // per new face: its smallest corner, which comes first in the patch
-  std::vector<int> order_;  // new faces by place in the patch
-  std::vector<int> place_;  // and back
-  std::vector<std::pair<int, Triangle>> keys_;          // per new face: label, corners from the smallest on
+  std::vector<Key> keys_;                 // of the new faces in the patch's order, by which what follows goes
+  std::vector<Triangle> across_;          // per face and side as in NewFaces, by its numbers
+  std::vector<Triangle> constraints_;     // likewise
+  std::vector<int> place_;                // of each new face in the patch
+  std::vector<int> slots_, spare_slots_;  // faces of the mesh
+  std::vector<std::size_t> spare_faces_;  // places in the patch
   std::vector<int> old_constraints_, new_constraints_;  // of the edges inside
-  std::vector<int> slots_, spare_slots_;                // faces of the mesh
-  std::vector<std::size_t> spare_faces_;                // places in the patch
 };
 
 }  // namespace
@@ -267,14 +276,17 @@ Finisher::~Finisher() = default;
 Finisher::Finisher(Finisher&&) noexcept = default;
 Finisher& Finisher::operator=(Finisher&&) noexcept = default;
 
-std::optional<Defect> Finisher::run(const Mesh& mesh, const FaceSets& sets, int set, NewFaces& faces,
-                                    bool allow_escaped, Patch& patch) {
-  if (auto defect = scratch_->labels.run(mesh, faces)) return defect;
+std::optional<Defect> Finisher::run(const Mesh& mesh, const Hole& hole, NewFaces& faces, bool allow_escaped,
+                                    Patch& patch) {
+  if (has_one_label(mesh, hole, faces))
+    faces.labels.assign(faces.size(), mesh.label(hole.faces.front()));
+  else if (auto defect = scratch_->labels.run(mesh, faces))
+    return defect;
   if (const int first = allow_escaped ? none : first_escaped(mesh, faces); first != none) {
     return Defect{
         .kind = DefectKind::Escaped, .vertices = {mesh.user_vertex(first)}, .where = mesh.position(first)};
   }
-  scratch_->patch.build(mesh, sets, set, faces, patch);
+  scratch_->patch.build(mesh, hole, faces, patch);
   return std::nullopt;
 }
 

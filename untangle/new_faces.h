@@ -7,7 +7,7 @@
 
 #include "core/defect.h"
 #include "core/mesh.h"
-#include "untangle/face_sets.h"
+#include "untangle/hole.h"
 
 namespace kinemesh {
 
@@ -40,7 +40,7 @@ class Finisher {
   // depend on the order of the new faces. Checks the certificate: as many faces as were in the set, as many
   // edges, each constrained edge again, each face upright. Throws std::logic_error otherwise, which is a bug of ours. Without a defect
   // `patch` is overwritten.
-  [[nodiscard]] std::optional<Defect> run(const Mesh& mesh, const FaceSets& sets, int set, NewFaces& faces,
+  [[nodiscard]] std::optional<Defect> run(const Mesh& mesh, const Hole& hole, NewFaces& faces,
                                           bool allow_escaped, Patch& patch);
 
  private:

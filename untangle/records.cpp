@@ -1,6 +1,7 @@
 #include "untangle/records.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <glm/common.hpp>
 #include <numeric>
 
@@ -10,65 +11,59 @@
 namespace kinemesh {
 namespace {
 
-bool contains(const std::vector<int>& sorted, int value) {
-  return std::binary_search(sorted.begin(), sorted.end(), value);
-}
+using FewFaces = boost::container::small_vector<int, 32>;
 
-Tangles tangles_among(const Mesh& mesh, const std::vector<int>& faces) {
-  Tangles tangles;
+// What is to be told of a region's faces as they are.
+struct Survey {
+  FewFaces inverted, flat;  // ascending
+  Point low, high;          // corners of the bounding box
+};
+
+Survey survey(const Mesh& mesh, const std::vector<int>& faces) {
+  const Point first = mesh.corners(faces.front())[0];
+  Survey found{{}, {}, first, first};
   for (const int face : faces) {
     const auto [a, b, c] = mesh.corners(face);
     const auto turn = orientation(a, b, c);
-    if (turn == Orientation::Clockwise) tangles.inverted.push_back(face);
-    if (turn == Orientation::Collinear) tangles.flat.push_back(face);
+    if (turn == Orientation::Clockwise) found.inverted.push_back(face);
+    if (turn == Orientation::Collinear) found.flat.push_back(face);
+    found.low = glm::min(found.low, glm::min(a, glm::min(b, c)));
+    found.high = glm::max(found.high, glm::max(a, glm::max(b, c)));
   }
-  return tangles;
+  return found;
+}
+
+bool contains(const FewFaces& sorted, int value) {
+  return std::binary_search(sorted.begin(), sorted.end(), value);
 }
 
 // Between inverted faces and upright ones.
-int count_crease_edges(const Mesh& mesh, const Tangles& tangles) {
+int count_crease_edges(const Mesh& mesh, const Survey& found) {
   int count = 0;
-  for (const int face : tangles.inverted) {
+  for (const int face : found.inverted) {
     for (const int side : mesh.sides(face)) {
       const int across = mesh.face_of(Mesh::opposite(side));
-      count += across != none && !contains(tangles.inverted, across) && !contains(tangles.flat, across);
+      count += across != none && !contains(found.inverted, across) && !contains(found.flat, across);
     }
   }
   return count;
 }
 
+int count_components(const Mesh& mesh, const FewFaces& inverted) {
+  if (inverted.size() < 2) return static_cast<int>(inverted.size());
+  return inverted_components(mesh, {inverted.data(), inverted.size()}).count;
+}
+
 // The smallest of the user's numbers, or none.
-int seed_of(const Mesh& mesh, const Tangles& tangles) {
+int seed_of(const Mesh& mesh, const Survey& found) {
   int seed = none;
-  for (const auto* faces : {&tangles.inverted, &tangles.flat}) {
+  for (const auto* faces : {&found.inverted, &found.flat}) {
     for (const int face : *faces) {
       const int user = mesh.user_face(face);
       if (user != none && (seed == none || user < seed)) seed = user;
     }
   }
   return seed;
-}
-
-int count_border_edges(const Mesh& mesh, const FaceSets& sets, int set) {
-  int count = 0;
-  for (const int face : sets.faces(set)) {
-    for (const int side : mesh.sides(face)) {
-      const int across = mesh.face_of(Mesh::opposite(side));
-      count += across == none || sets.set_of(across) != set;
-    }
-  }
-  return count;
-}
-
-Point centre_of(const Mesh& mesh, const std::vector<int>& faces) {
-  Point low = mesh.corners(faces.front())[0], high = low;
-  for (const int face : faces) {
-    for (const auto& p : mesh.corners(face)) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-  }
-  return low + 0.5 * (high - low);
 }
 
 template <class Member>
@@ -78,18 +73,18 @@ int total(const std::vector<RegionRecord>& regions, const Member& member) {
 
 }  // namespace
 
-RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set) {
+RegionRecord describe_region(const Mesh& mesh, const Hole& region) {
   RegionRecord record;
-  record.faces = sets.faces(set);
-  const auto tangles = tangles_among(mesh, record.faces);
-  record.seed = seed_of(mesh, tangles);
-  record.inverted = static_cast<int>(tangles.inverted.size());
-  record.degenerate = static_cast<int>(tangles.flat.size());
-  record.components = inverted_components(mesh, tangles.inverted).count;
-  record.explored = static_cast<int>(record.faces.size());
-  record.border_edges = count_border_edges(mesh, sets, set);
-  record.crease_edges = count_crease_edges(mesh, tangles);
-  record.centre = centre_of(mesh, record.faces);
+  record.faces = region.faces;
+  const Survey found = survey(mesh, region.faces);
+  record.seed = seed_of(mesh, found);
+  record.inverted = static_cast<int>(found.inverted.size());
+  record.degenerate = static_cast<int>(found.flat.size());
+  record.components = count_components(mesh, found.inverted);
+  record.explored = region.size();
+  record.border_edges = static_cast<int>(region.border.size());
+  record.crease_edges = count_crease_edges(mesh, found);
+  record.centre = found.low + 0.5 * (found.high - found.low);
   record.user_faces.reserve(record.faces.size());
   for (const int face : record.faces) {
     if (!mesh.is_padding(face)) record.user_faces.push_back(mesh.user_face(face));

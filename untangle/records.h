@@ -2,15 +2,14 @@
 #pragma once
 
 #include "core/mesh.h"
-#include "untangle/face_sets.h"
+#include "untangle/hole.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh {
 
 // Fills what follows from the faces alone (faces, user_faces, seed, inverted, degenerate, components,
-// crease_edges, explored, border_edges, centre). To be called before anything is spliced. Pre: the set's
-// faces ascend.
-RegionRecord describe_region(const Mesh& mesh, const FaceSets& sets, int set);
+// crease_edges, explored, border_edges, centre). To be called before anything is spliced.
+RegionRecord describe_region(const Mesh& mesh, const Hole& region);
 
 // The order of regions in a record: by the number users know their seed by, those of padding only at the end.
 bool is_seeded_before(const RegionRecord& a, const RegionRecord& b);

@@ -17,23 +17,24 @@ Edge sorted(const Edge& edge) {
 
 }  // namespace
 
-RegionMesher::Result RegionMesher::run(const Mesh& mesh, const FaceSets& sets, int set) {
-  if (small_.run(mesh, sets, set)) {
+RegionMesher::Result RegionMesher::run(const Mesh& mesh, const Hole& hole) {
+  if (small_.run(mesh, hole)) {
     std::swap(new_faces_, small_.new_faces());
     return Result::Done;
   }
-  return run_generally(mesh, sets, set);
+  return run_generally(mesh, hole);
 }
 
-RegionMesher::Result RegionMesher::run_generally(const Mesh& mesh, const FaceSets& sets, int set) {
+RegionMesher::Result RegionMesher::run_generally(const Mesh& mesh, const Hole& hole) {
   mesh_ = &mesh;
-  collect(sets, set);
+  hole_ = &hole;
+  collect();
   if (const auto contact = triangulator_.triangulate(points_, edges_, triangulation_)) {
     if (auto defect = verdict(*contact)) {
       defect_ = std::move(*defect);
       return Result::NoMesh;
     }
-  } else if (select_inside(static_cast<int>(sets.faces(set).size()))) {
+  } else if (select_inside()) {
     convert();
     return Result::Done;
   }
@@ -42,34 +43,19 @@ RegionMesher::Result RegionMesher::run_generally(const Mesh& mesh, const FaceSet
 
 // --- what goes into the triangulation ---
 
-void RegionMesher::collect(const FaceSets& sets, int set) {
-  add_vertices(sets, set);
+void RegionMesher::collect() {
+  add_vertices();
   edges_.clear();
-  border_halfedges_.clear();
-  inner_constraints_.clear();
-  std::vector<int> inner;
-  for (const int face : sets.faces(set)) {
-    for (const int side : mesh_->sides(face)) {
-      const int across = mesh_->face_of(Mesh::opposite(side));
-      const int constraint = mesh_->constraint_of(Mesh::edge_of(side));
-      if (across == none || sets.set_of(across) != set)
-        border_halfedges_.push_back(side);
-      else if (constraint != none && side < Mesh::opposite(side))
-        inner.push_back(side);
-    }
-  }
-  for (const int side : border_halfedges_) add_edge(side);
-  for (const int side : inner) {
-    add_edge(side);
-    inner_constraints_.push_back(mesh_->constraint_of(Mesh::edge_of(side)));
-  }
+  for (const auto& side : hole_->border) edges_.push_back({local_of_[side.from], local_of_[side.to]});
+  for (const int side : hole_->inner_constraints)
+    edges_.push_back({local_of_[mesh_->from(side)], local_of_[mesh_->to(side)]});
 }
 
-void RegionMesher::add_vertices(const FaceSets& sets, int set) {
+void RegionMesher::add_vertices() {
   for (const int v : vertices_) local_of_[v] = none;
   vertices_.clear();
   if (static_cast<int>(local_of_.size()) < mesh_->n_vertices()) local_of_.resize(mesh_->n_vertices(), none);
-  for (const int face : sets.faces(set)) {
+  for (const int face : hole_->faces) {
     for (const int v : mesh_->triangles()[face]) {
       if (local_of_[v] != none) continue;
       vertices_.push_back(v);
@@ -84,13 +70,9 @@ void RegionMesher::add_vertices(const FaceSets& sets, int set) {
   }
 }
 
-void RegionMesher::add_edge(int halfedge) {
-  edges_.push_back({local_of_[mesh_->from(halfedge)], local_of_[mesh_->to(halfedge)]});
-}
-
 bool RegionMesher::is_constrained(int edge) const {
   if (edge >= border_edges()) return true;
-  return mesh_->constraint_of(Mesh::edge_of(border_halfedges_[edge])) != none;
+  return mesh_->constraint_of(Mesh::edge_of(hole_->border[edge].halfedge)) != none;
 }
 
 // --- what the triangulation says ---
@@ -123,8 +105,8 @@ std::optional<Defect> RegionMesher::verdict(const Contact& contact) const {
 
 // Inside are the triangles the border goes around once. False if it is not simple, or if a constrained edge
 // is not inside.
-bool RegionMesher::select_inside(int n_expected) {
-  const std::span border(edges_.data(), border_halfedges_.size());
+bool RegionMesher::select_inside() {
+  const std::span border(edges_.data(), hole_->border.size());
   const auto winding = winding_numbers(triangulation_, border);
   inside_.clear();
   std::size_t constrained_sides = 0;
@@ -136,7 +118,7 @@ bool RegionMesher::select_inside(int n_expected) {
     constrained_sides +=
         std::count_if(edges.begin(), edges.end(), [&](int e) { return e >= border_edges(); });
   }
-  return static_cast<int>(inside_.size()) == n_expected && constrained_sides == 2 * inner_constraints_.size();
+  return inside_.size() == hole_->faces.size() && constrained_sides == 2 * hole_->inner_constraints.size();
 }
 
 Defect RegionMesher::left_domain(int vertex) const {
@@ -157,7 +139,7 @@ bool RegionMesher::find_lost_vertex() {
 bool RegionMesher::find_taken_edge() {
   std::vector<Edge> taken;
   for (int i = 0; i < border_edges(); ++i) {
-    if (mesh_->face_of(Mesh::opposite(border_halfedges_[i])) == none) taken.push_back(sorted(edges_[i]));
+    if (mesh_->face_of(Mesh::opposite(hole_->border[i].halfedge)) == none) taken.push_back(sorted(edges_[i]));
   }
   std::sort(taken.begin(), taken.end());
   for (int i = border_edges(); i < static_cast<int>(edges_.size()); ++i) {
@@ -181,8 +163,9 @@ void RegionMesher::convert() {
       const int edge = triangulation_.edges[t][k];
       const bool on_border = edge != none && edge < border_edges();
       corners[k] = vertices_[triangulation_.triangles[t][k]];
-      neighbours[k] = on_border ? ~border_halfedges_[edge] : number_[triangulation_.neighbours[t][k]];
-      if (edge != none && !on_border) constraints[k] = inner_constraints_[edge - border_edges()];
+      neighbours[k] = on_border ? ~hole_->border[edge].halfedge : number_[triangulation_.neighbours[t][k]];
+      if (edge != none && !on_border)
+        constraints[k] = mesh_->constraint_of(Mesh::edge_of(hole_->inner_constraints[edge - border_edges()]));
     }
     new_faces_.add(corners, neighbours, constraints);
   }

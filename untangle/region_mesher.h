@@ -7,7 +7,7 @@
 #include "core/defect.h"
 #include "core/mesh.h"
 #include "core/triangulator.h"
-#include "untangle/face_sets.h"
+#include "untangle/hole.h"
 #include "untangle/new_faces.h"
 #include "untangle/small_region_mesher.h"
 
@@ -25,12 +25,11 @@ class RegionMesher {
     NoMesh      // defect() says why no region helps
   };
 
-  // Pre: sets.faces(set) ascending. Reads nothing outside the set. Deterministic. Keeps scratch memory for
-  // the next.
-  [[nodiscard]] Result run(const Mesh& mesh, const FaceSets& sets, int set);
+  // Reads nothing outside the hole, which stays as it is until the next. Deterministic. Keeps scratch memory.
+  [[nodiscard]] Result run(const Mesh& mesh, const Hole& hole);
 
   // The same without the short cut for small regions.
-  [[nodiscard]] Result run_generally(const Mesh& mesh, const FaceSets& sets, int set);
+  [[nodiscard]] Result run_generally(const Mesh& mesh, const Hole& hole);
 
   // Of the last region.
   NewFaces& new_faces() { return new_faces_; }
@@ -39,23 +38,23 @@ class RegionMesher {
   double triangulator_ms() const { return triangulator_.milliseconds(); }  // over all regions
 
  private:
-  void collect(const FaceSets& sets, int set);
-  void add_vertices(const FaceSets& sets, int set);
-  void add_edge(int halfedge);
+  void collect();
+  void add_vertices();
   std::optional<Defect> verdict(const Contact& contact) const;
-  bool select_inside(int n_expected);
+  bool select_inside();
   Defect left_domain(int vertex) const;
   bool find_lost_vertex();
   bool find_taken_edge();
   void convert();
 
-  int border_edges() const { return static_cast<int>(border_halfedges_.size()); }
+  int border_edges() const { return static_cast<int>(hole_->border.size()); }
   bool is_constrained(int edge) const;
   int user(int local) const { return mesh_->user_vertex(vertices_[local]); }
   Edge user_edge(int edge) const { return {user(edges_[edge][0]), user(edges_[edge][1])}; }
 
   SmallRegionMesher small_;
   const Mesh* mesh_ = nullptr;
+  const Hole* hole_ = nullptr;
   Triangulator triangulator_;
   Triangulation triangulation_;
 
@@ -63,8 +62,6 @@ class RegionMesher {
   std::vector<int> vertices_;  // the region's, ascending
   std::vector<Point> points_;  // theirs
   std::vector<Edge> edges_;    // local: the border, the region to its left; then constrained inner ones
-  std::vector<int> border_halfedges_;   // of the edges of the border
-  std::vector<int> inner_constraints_;  // of the edges behind them
 
   std::vector<int> inside_;  // triangles of the region
   std::vector<int> number_;  // per triangle: among those inside

@@ -79,23 +79,25 @@ RegionRepair::Attempt RegionRepair::attempt(const Mesh& mesh, const RepairOption
   auto& worker = workers_.local();
   auto& work = patches_[region];
   const int retries = work.record.retries;
-  work.record = describe_region(mesh, regions_, region);
+  worker.hole.dig(mesh, regions_, region);
+  work.record = describe_region(mesh, worker.hole);
   work.record.retries = retries;
   if (options.retain && remesh_rest(worker, mesh, options, region)) return {};
-  const auto result = worker.mesher.run(mesh, regions_, region);
+  const auto result = worker.mesher.run(mesh, worker.hole);
   if (result == RegionMesher::Result::NotSimple) return {.is_simple = false, .defect = {}};
   if (result == RegionMesher::Result::NoMesh) return {.is_simple = true, .defect = worker.mesher.defect()};
   return {.is_simple = true,
-          .defect = worker.finisher.run(mesh, regions_, region, worker.mesher.new_faces(),
-                                        options.allow_escaped, work.patch)};
+          .defect = worker.finisher.run(mesh, worker.hole, worker.mesher.new_faces(), options.allow_escaped,
+                                        work.patch)};
 }
 
 // False where not all goes well: then there is more to replace, or a reason that the whole region tells.
 bool RegionRepair::remesh_rest(Worker& worker, const Mesh& mesh, const RepairOptions& options, int region) {
   const auto& retention = worker.retention;
   if (!worker.retention.run(mesh, regions_, region)) return false;
-  if (worker.mesher.run(mesh, retention.rest(), 0) != RegionMesher::Result::Done) return false;
-  if (worker.finisher.run(mesh, retention.rest(), 0, worker.mesher.new_faces(), options.allow_escaped,
+  worker.rest.dig(mesh, retention.rest(), 0);
+  if (worker.mesher.run(mesh, worker.rest) != RegionMesher::Result::Done) return false;
+  if (worker.finisher.run(mesh, worker.rest, worker.mesher.new_faces(), options.allow_escaped,
                           patches_[region].patch))
     return false;
   patches_[region].record.kept = retention.kept();

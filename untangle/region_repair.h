@@ -50,6 +50,7 @@ class RegionRepair {
  private:
   // What a thread works with.
   struct Worker {
+    Hole hole, rest;
     RegionMesher mesher;
     Finisher finisher;
     Retention retention;

@@ -22,9 +22,10 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   everything_.reset(mesh.n_faces());
   const int all = everything_.open();
   for (int face = 0; face < mesh.n_faces(); ++face) everything_.add(face, all);
-  auto line = describe_region(mesh, everything_, all);
+  hole_.dig(mesh, everything_, all);
+  auto line = describe_region(mesh, hole_);
   record.components = line.components;
-  const auto result = mesher_.run(mesh, everything_, all);
+  const auto result = mesher_.run(mesh, hole_);
   record.triangulate_ms = mesher_.triangulator_ms() - cgal_before;
   if (result == RegionMesher::Result::NoMesh) {
     outcome.defect = mesher_.defect();
@@ -34,7 +35,7 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   if (result == RegionMesher::Result::NotSimple)
     throw std::logic_error("the whole mesh has no simple border");
   Patch patch;
-  outcome.defect = finisher_.run(mesh, everything_, all, mesher_.new_faces(), options.allow_escaped, patch);
+  outcome.defect = finisher_.run(mesh, hole_, mesher_.new_faces(), options.allow_escaped, patch);
   if (outcome.defect) return outcome;
 
   record.replaced = mesh.n_faces();

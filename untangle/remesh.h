@@ -16,6 +16,7 @@ class FullRemesh : public Strategy {
 
  private:
   FaceSets everything_;
+  Hole hole_;
   RegionMesher mesher_;
   Finisher finisher_;
 };

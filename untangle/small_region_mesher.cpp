@@ -23,9 +23,8 @@ bool is_left(const Point& a, const Point& b, const Point& p) {
 
 }  // namespace
 
-bool SmallRegionMesher::run(const Mesh& mesh, const FaceSets& sets, int set) {
-  if (!collect(mesh, sets, set) || !trace_border() || !is_border_simple() || !is_counter_clockwise())
-    return false;
+bool SmallRegionMesher::run(const Mesh& mesh, const Hole& hole) {
+  if (!collect(mesh, hole) || !trace_border() || !is_border_simple() || !is_counter_clockwise()) return false;
   clip_ears();
   if (!insert_inner_vertices()) return false;
   flip_to_delaunay();
@@ -36,44 +35,36 @@ bool SmallRegionMesher::run(const Mesh& mesh, const FaceSets& sets, int set) {
 // --- the polygon ---
 
 // False for what is not of this mesher's kind.
-bool SmallRegionMesher::collect(const Mesh& mesh, const FaceSets& sets, int set) {
-  n_faces_ = static_cast<int>(sets.faces(set).size());
-  if (n_faces_ > max_faces) return false;
-  number_vertices(mesh, sets, set);
+bool SmallRegionMesher::collect(const Mesh& mesh, const Hole& hole) {
+  n_faces_ = hole.size();
+  if (n_faces_ > max_faces || !hole.inner_constraints.empty()) return false;
+  number_vertices(mesh, hole);
   if (n_vertices_ > max_vertices) return false;
-  const auto local = [&](int v) {
-    const auto end = vertices_.begin() + n_vertices_;
-    return static_cast<int>(std::lower_bound(vertices_.begin(), end, v) - vertices_.begin());
-  };
   std::fill_n(halfedge_from_.begin(), n_vertices_, none);
-  for (const int face : sets.faces(set)) {
-    const auto& t = mesh.triangles()[face];
-    const auto sides = mesh.sides(face);
-    for (int k = 0; k < 3; ++k) {
-      const int across = mesh.face_of(Mesh::opposite(sides[k]));
-      if (across != none && sets.set_of(across) == set) {
-        if (mesh.constraint_of(Mesh::edge_of(sides[k])) != none) return false;
-        continue;
-      }
-      const int from = local(t[k]);
-      if (halfedge_from_[from] != none) return false;  // a pinch
-      halfedge_from_[from] = sides[k];
-      border_next_[from] = local(t[following(k)]);
-    }
+  for (const auto& side : hole.border) {
+    const int from = local(side.from);
+    if (halfedge_from_[from] != none) return false;  // a pinch
+    halfedge_from_[from] = side.halfedge;
+    border_next_[from] = local(side.to);
   }
   return true;
 }
 
-void SmallRegionMesher::number_vertices(const Mesh& mesh, const FaceSets& sets, int set) {
+void SmallRegionMesher::number_vertices(const Mesh& mesh, const Hole& hole) {
   std::array<int, 3 * max_faces> corners;
   auto end = corners.begin();
-  for (const int face : sets.faces(set)) end = std::ranges::copy(mesh.triangles()[face], end).out;
+  for (const int face : hole.faces) end = std::ranges::copy(mesh.triangles()[face], end).out;
   std::sort(corners.begin(), end);
   end = std::unique(corners.begin(), end);
   n_vertices_ = static_cast<int>(end - corners.begin());
   if (n_vertices_ > max_vertices) return;
   std::copy(corners.begin(), end, vertices_.begin());
   for (int v = 0; v < n_vertices_; ++v) points_[v] = mesh.position(vertices_[v]);
+}
+
+int SmallRegionMesher::local(int vertex) const {
+  const auto end = vertices_.begin() + n_vertices_;
+  return static_cast<int>(std::lower_bound(vertices_.begin(), end, vertex) - vertices_.begin());
 }
 
 // False unless the border is one loop around a disc.
@@ -214,12 +205,17 @@ bool SmallRegionMesher::split_side(int face, int side, int vertex) {
 
 // --- the Delaunay one ---
 
+// Each edge is looked at once, and again when a face beside it has become another [Lawson 1977].
 void SmallRegionMesher::flip_to_delaunay() {
-  for (bool again = true; again;) {
-    again = false;
-    for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
-      for (int k = 0; k < 3; ++k) again |= flip_if_better(f, k);
+  for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      if (faces_[f].neighbours[k] > f) suspects_.push_back({f, k});
     }
+  }
+  while (!suspects_.empty()) {
+    const auto [face, side] = suspects_.back();
+    suspects_.pop_back();
+    flip_if_better(face, side);
   }
 }
 
@@ -228,20 +224,20 @@ void SmallRegionMesher::flip_to_delaunay() {
 //   a --> b  ->   a  |  b
 //    \   /         \ | /
 //      d             d
-bool SmallRegionMesher::flip_if_better(int face, int side) {
+void SmallRegionMesher::flip_if_better(int face, int side) {
   const int other = faces_[face].neighbours[side];
-  if (other < 0) return false;
+  if (other < 0) return;
   const int back = side_towards(other, face);
   const int a = faces_[face].corners[side], b = faces_[face].corners[following(side)];
   const int c = faces_[face].corners[preceding(side)], d = faces_[other].corners[preceding(back)];
-  if (in_circle(points_[a], points_[b], points_[c], points_[d]) != Side::Inside) return false;
+  if (in_circle(points_[a], points_[b], points_[c], points_[d]) != Side::Inside) return;
   const int bc = faces_[face].neighbours[following(side)], ca = faces_[face].neighbours[preceding(side)];
   const int ad = faces_[other].neighbours[following(back)], db = faces_[other].neighbours[preceding(back)];
   faces_[face] = {{a, d, c}, {ad, other, ca}};
   faces_[other] = {{d, b, c}, {db, bc, face}};
   relink(ad, other, face);
   relink(bc, face, other);
-  return true;
+  suspects_.insert(suspects_.end(), {{face, 0}, {face, 2}, {other, 0}, {other, 1}});
 }
 
 // --- faces and their neighbours ---

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mesh.h"
-#include "untangle/face_sets.h"
+#include "untangle/hole.h"
 #include "untangle/new_faces.h"
 
 namespace kinemesh {
@@ -17,9 +17,8 @@ class SmallRegionMesher {
  public:
   // False where RegionMesher has to look: more than max_faces faces, a border that is not one loop or touches
   // itself, a constrained edge inside, a vertex on the border or outside. Otherwise new_faces() holds the
-  // faces RegionMesher would find, up to the choice among cocircular vertices. Pre: sets.faces(set) ascending.
-  // Deterministic.
-  [[nodiscard]] bool run(const Mesh& mesh, const FaceSets& sets, int set);
+  // faces RegionMesher would find, up to the choice among cocircular vertices. Deterministic.
+  [[nodiscard]] bool run(const Mesh& mesh, const Hole& hole);
 
   NewFaces& new_faces() { return new_faces_; }  // of the last region
 
@@ -35,8 +34,9 @@ class SmallRegionMesher {
     std::array<int, 3> neighbours;
   };
 
-  bool collect(const Mesh& mesh, const FaceSets& sets, int set);
-  void number_vertices(const Mesh& mesh, const FaceSets& sets, int set);
+  bool collect(const Mesh& mesh, const Hole& hole);
+  void number_vertices(const Mesh& mesh, const Hole& hole);
+  int local(int vertex) const;
   bool trace_border();
   bool is_border_simple() const;
   bool is_counter_clockwise() const;
@@ -49,7 +49,7 @@ class SmallRegionMesher {
   void split_face(int face, int vertex);
   bool split_side(int face, int side, int vertex);
   void flip_to_delaunay();
-  bool flip_if_better(int face, int side);
+  void flip_if_better(int face, int side);
 
   int add(const std::array<int, 3>& corners, const std::array<int, 3>& neighbours);
   void relink(int neighbour, int from, int to);
@@ -65,6 +65,7 @@ class SmallRegionMesher {
   // What is left to clip: vertex i and what lies across the side from it to the next.
   std::vector<int> loop_, across_;
   std::vector<Face> faces_;
+  std::vector<std::array<int, 2>> suspects_;  // face and side
   NewFaces new_faces_;
 };
 

@@ -67,8 +67,10 @@ struct Tally {
 void compare(const Mesh& mesh, const FaceSets& sets, int set, Tally& tally) {
   SmallRegionMesher small;
   RegionMesher general;
-  const bool meshed = small.run(mesh, sets, set);
-  const auto result = general.run_generally(mesh, sets, set);
+  Hole hole;
+  hole.dig(mesh, sets, set);
+  const bool meshed = small.run(mesh, hole);
+  const auto result = general.run_generally(mesh, hole);
   if (!meshed) {
     ++tally.refused;
     tally.refused_by_both += result != RegionMesher::Result::Done;

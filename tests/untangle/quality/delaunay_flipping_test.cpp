@@ -96,7 +96,7 @@ TEST(DelaunayFlipping, EndsWhereAllVerticesAreCocircular) {
 TEST(DelaunayFlipping, UntanglesRandomTangles) {
   int untangled = 0;
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
-    auto [about, mesh] = random_tangle(seed);
+    auto [about, mesh, was_at] = random_tangle(seed);
     const Mesh before = mesh;
     const auto outcome = DelaunayFlipping().run(mesh, allowing);
     ASSERT_TRUE(outcome) << about << " " << seed << ": " << message(outcome.defect);
@@ -112,7 +112,7 @@ TEST(DelaunayFlipping, UntanglesRandomTangles) {
 TEST(DelaunayFlipping, UntanglesLattices) {
   int untangled = 0, failed = 0;
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
-    auto [about, mesh] = lattice_tangle(seed);
+    auto [about, mesh, was_at] = lattice_tangle(seed);
     const Mesh before = mesh;
     const auto outcome = DelaunayFlipping().run(mesh, allowing);
     if (outcome) {

@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Smooth,
 
 // Valid, and as bad as a repair leaves it.
 Mesh bad_but_valid(std::uint64_t seed) {
-  auto [about, mesh] = random_tangle(seed);
+  auto [about, mesh, was_at] = random_tangle(seed);
   if (!repair(mesh, true)) throw std::logic_error("no valid mesh of " + about);
   return mesh;
 }
@@ -141,7 +141,7 @@ TEST_P(Smooth, UntanglesRandomTangles) {
   allow.repair = allowing;
   int untangled = 0, moved = 0;
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
-    auto [about, mesh] = random_tangle(seed);
+    auto [about, mesh, was_at] = random_tangle(seed);
     const Mesh before = mesh;
     const auto outcome = smooth(mesh, allow);
     ASSERT_TRUE(outcome) << about << " " << seed << ": " << message(outcome.defect);
@@ -162,7 +162,7 @@ TEST_P(Smooth, UntanglesLattices) {
   allow.repair = allowing;
   int untangled = 0, failed = 0;
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
-    auto [about, mesh] = lattice_tangle(seed);
+    auto [about, mesh, was_at] = lattice_tangle(seed);
     const Mesh before = mesh;
     const auto outcome = smooth(mesh, allow);
     EXPECT_EQ(moved_what_stays(before, mesh), "") << seed;
@@ -186,7 +186,7 @@ TEST_P(Smooth, StaysValidInNearlyDegeneratePositions) {
   allow.repair = allowing;
   int moved = 0;
   for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
-    auto [about, mesh] = lattice_tangle(seed);
+    auto [about, mesh, was_at] = lattice_tangle(seed);
     Random random(seed);
     const auto near = [&](double x) { return x * (1.0 + (random.below(9) - 4) * 0x1p-52); };
     for (int v = 0; v < mesh.n_vertices(); ++v) {
