@@ -53,6 +53,7 @@ table() {
     echo "kinemesh bench $scenario $* --threads 1" >"$results/$name.txt"
     grep -v "$work" "$work/$name.txt" | tee -a "$results/$name.txt"
     cp "$work/$name/bench.csv" "$results/$name.csv"
+    [[ -e "$work/$name/bench_bound.csv" ]] && cp "$work/$name/bench_bound.csv" "$results/${name}_bound.csv"
     for plot in "$work/$name"/plots/*.svg; do
       [[ -e "$plot" ]] && cp "$plot" "$images/bench_${name}_$(basename "$plot")"
     done
@@ -95,7 +96,7 @@ else
     [[ -n "$others" ]] &&
       table "${regime}_others" "$regime" --strategies "global,$others,remesh" --sweep "mesh.vertices=$small"
   done
-  table noise jitter --strategies global,local,auto,remesh --set "mesh.vertices=$step" \
+  table noise jitter --strategies global,local,auto,remesh --set "mesh.vertices=$step" --bound \
     --sweep motion.0.amplitude=0.01,0.02,0.05,0.1,0.2,0.5,1.0
   table step_size swirl --strategies global,local,auto,remesh --set "mesh.vertices=$step" \
     --sweep time.dt=0.01,0.02,0.05,0.1,0.2,0.5

@@ -21,12 +21,14 @@ build=(
   zlib1g-dev        # compressed VTU
 )
 tests=(
+  gnuplot-nox       # plots of benchmarks
   libbenchmark-dev
   libgmock-dev libgtest-dev
   librapidcheck-dev # properties over random cases
   libsuitesparse-dev # CHOLMOD, for the heat example
   python3-meshio    # reads what we write
   clang libclang-rt-14-dev  # libFuzzer
+  valgrind          # counts instructions
 )
 
 is_installed() {

@@ -1,9 +1,13 @@
 #include "sim/bench.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "core/error.h"
+#include "core/frame.h"
 #include "core/validate.h"
 #include "sim/run.h"
 #include "sim/setup.h"
@@ -11,16 +15,33 @@
 namespace kinemesh {
 namespace {
 
+// By the whole process and not given back.
+std::size_t allocated_bytes() {
+  const auto info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+std::size_t bytes_of(const StepRecord& record) {
+  const std::size_t before = allocated_bytes();
+  const StepRecord copy = record;
+  return allocated_bytes() - before;
+}
+
 class Competitor {
  public:
   Competitor(const RepairSpec& repair, const Mesh& mesh)
-      : options_(stepper_options(repair)), stepper_(mesh, options_) {}
+      : options_(stepper_options(repair)), held_bytes_(allocated_bytes()), stepper_(mesh, options_) {
+    held_bytes_ = allocated_bytes() - held_bytes_;
+  }
 
   const std::string& strategy() const { return options_.strategy; }
   const Mesh& mesh() const { return stepper_.mesh(); }
+  std::size_t held_bytes() const { return held_bytes_; }
 
   StepOutcome step(std::span<const Point> positions, double dt) {
+    const std::size_t before = allocated_bytes();
     auto outcome = stepper_.step(positions, dt);
+    held_bytes_ += allocated_bytes() - bytes_of(outcome.record) - before;
     if (const auto defect = outcome ? validate(mesh()) : std::nullopt)
       throw std::logic_error("strategy " + strategy() + " leaves " + defect->message() + " at step " +
                              std::to_string(outcome.record.step));
@@ -28,11 +49,14 @@ class Competitor {
   }
 
   void follow(const Competitor& other) {
+    const std::size_t before = allocated_bytes();
     stepper_ = Stepper(other.mesh(), options_, other.stepper_.time(), other.stepper_.steps_done());
+    held_bytes_ += allocated_bytes() - before;
   }
 
  private:
   StepperOptions options_;
+  std::size_t held_bytes_;
   Stepper stepper_;
 };
 
@@ -51,17 +75,34 @@ class Contest {
     }
   }
 
-  std::optional<std::string> run(const std::function<void(const Round&)>& tell) {
+  std::optional<std::string> run(const std::function<void(const Round&)>& tell,
+                                 const TangledMeshViewer& view) {
     for (int step = 1; step <= time_.steps; ++step) {
+      if (view) show_tangled(step, view);
       if (auto why = do_step(step, tell)) return why;
     }
     return std::nullopt;
   }
 
  private:
-  std::optional<std::string> do_step(int step, const std::function<void(const Round&)>& tell) {
+  void move(int step) {
     const double t = time_.time_after(step - 1), dt = time_.time_after(step) - t;
     motion_.advance(now_, t, dt, static_cast<std::uint64_t>(step - 1), next_);
+  }
+
+  // As far as its positions are finite.
+  void show_tangled(int step, const TangledMeshViewer& view) {
+    move(step);
+    Mesh tangled = competitors_.front().mesh();
+    auto positions = next_;
+    follow(tangled, positions);
+    tangled.swap_positions(positions);
+    view(step, tangled);
+  }
+
+  std::optional<std::string> do_step(int step, const std::function<void(const Round&)>& tell) {
+    const double dt = time_.time_after(step) - time_.time_after(step - 1);
+    move(step);
     const auto positions = mesh_.in_user_order(next_);
     std::vector<StepOutcome> outcomes;
     for (auto& competitor : competitors_) outcomes.push_back(competitor.step(positions, dt));
@@ -69,7 +110,8 @@ class Contest {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       if (!outcomes[i] && valid != outcomes.end())
         competitors_[i].follow(competitors_[valid - outcomes.begin()]);
-      tell({competitors_[i].strategy(), outcomes[i].record, competitors_[i].mesh()});
+      tell({competitors_[i].strategy(), outcomes[i].record, competitors_[i].mesh(),
+            competitors_[i].held_bytes()});
     }
     if (valid == outcomes.end()) return why_stopped(outcomes.front());
     std::swap(now_, next_);
@@ -103,8 +145,9 @@ std::vector<std::string> parts_of(const std::string& text) {
 
 std::optional<std::string> compare_strategies(const Scenario& scenario,
                                               std::span<const std::string> strategies,
-                                              const std::function<void(const Round&)>& tell) {
-  return Contest(scenario, strategies, set_up(scenario)).run(tell);
+                                              const std::function<void(const Round&)>& tell,
+                                              const TangledMeshViewer& view) {
+  return Contest(scenario, strategies, set_up(scenario)).run(tell, view);
 }
 
 Sweep parse_sweep(const std::string& text) {

@@ -6,9 +6,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "core/error.h"
+#include "sim/bench_bound.h"
+#include "sim/cli/bench_plots.h"
+#include "sim/cli/bench_score.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/csv_log.h"
@@ -27,38 +31,11 @@ struct BenchArguments {
   std::string sweep;
   std::string directory;
   bool force = false;
+  bool bound = false;
   int threads = 0;
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// What a strategy did over all steps, at one value of the sweep.
-struct Score {
-  int steps = 0, failed = 0;
-  double replaced = 0.0;  // share of all faces, summed over the steps
-  double min_angle_deg = 180.0;
-  std::vector<double> detect, explore, triangulate, splice, quality, step;  // ms; the step without the move
-
-  void add(const Round& round) {
-    const auto& r = round.record.repair;
-    ++steps;
-    failed += !round.record.accepted;
-    if (!round.record.accepted) return;
-    replaced += static_cast<double>(r.replaced) / round.mesh.n_faces();
-    min_angle_deg = std::min(min_angle_deg, round.record.min_angle_deg);
-    detect.push_back(r.detect_ms);
-    explore.push_back(r.explore_ms);
-    triangulate.push_back(r.triangulate_ms);
-    splice.push_back(r.splice_ms);
-    quality.push_back(r.quality_ms);
-    step.push_back(round.record.total_ms - round.record.move_ms);
-  }
-};
+constexpr int most_bound_samples = 500;  // of a step
 
 // A field that holds a comma or a quote is quoted.
 std::string csv_field(const std::string& text) {
@@ -77,7 +54,7 @@ class BenchLog {
         regions_(directory / "bench_regions.csv", header(regions_csv_header, key)) {}
 
   void write(const Round& round, const std::string& value) {
-    const auto& [strategy, record, mesh] = round;
+    const auto& [strategy, record, mesh, held] = round;
     const std::string end = value.empty() ? "" : "," + csv_field(value);
     int number = 0;
     for (const auto& region : record.repair.regions)
@@ -93,30 +70,24 @@ class BenchLog {
   LineFile steps_, regions_;
 };
 
-void print_header() {
-  fmt::print("{:<10}{:>6}{:>11}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>9}\n", "", "steps", "replaced %",
-             "detect", "explore", "re-mesh", "splice", "quality", "step ms", "rebuild", "angle");
-}
+// bench_bound.csv.
+class BoundLog {
+ public:
+  BoundLog(const fs::path& directory, const std::string& key)
+      : file_(
+            directory / "bench_bound.csv",
+            "step,seed,faces,upright,inverted,components,depth,crossings,complexity,rounds,explore_us,bound" +
+                (key.empty() ? "" : "," + csv_field(key))) {}
 
-// rebuild_ms: of CGAL's triangulation alone; 0: not known.
-void print_score(const std::string& strategy, const Score& s, double rebuild_ms) {
-  const int n = s.steps - s.failed;
-  const double step_ms = median(s.step);
-  fmt::print("{:<10}{:>6}{:>11.3g}{:>9.3g}{:>9.3g}{:>9.3g}{:>9.3g}{:>9.3g}{:>10.4g}{:>9}{:>9.3g}\n", strategy,
-             n, n > 0 ? 100.0 * s.replaced / n : 0.0, median(s.detect), median(s.explore),
-             median(s.triangulate), median(s.splice), median(s.quality), step_ms,
-             rebuild_ms > 0.0 && step_ms > 0.0 ? fmt::format("{:.3g}x", rebuild_ms / step_ms) : "-",
-             n > 0 ? s.min_angle_deg : 0.0);
-  if (s.failed > 0) fmt::print("{:<10}{:>6} without valid mesh\n", "", s.failed);
-}
+  void write(int step, const BoundSample& s, const std::string& value) {
+    file_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{:.3f},{}{}", step, s.seed, s.faces(), s.upright,
+                            s.inverted, s.components, s.depth, s.crossings, s.complexity, s.rounds,
+                            s.explore_us, s.bound(), value.empty() ? "" : "," + csv_field(value)));
+  }
 
-void print_scores(const std::vector<std::string>& strategies, const std::vector<Score>& scores) {
-  double rebuild_ms = 0.0;
-  for (std::size_t i = 0; i < strategies.size(); ++i)
-    if (strategies[i] == "remesh") rebuild_ms = median(scores[i].triangulate);
-  print_header();
-  for (std::size_t i = 0; i < strategies.size(); ++i) print_score(strategies[i], scores[i], rebuild_ms);
-}
+ private:
+  LineFile file_;
+};
 
 // Of this process, in MiB.
 double peak_memory() {
@@ -164,15 +135,32 @@ int bench(const BenchArguments& arguments) {
   const fs::path directory = open_directory(arguments);
   const ThreadLimit threads(arguments.threads);
   BenchLog log(directory, sweep.key);
+  BenchPlots plots(fs::path(arguments.scenario).stem().string(), sweep.key);
+  std::optional<BoundLog> bound_log;
+  fs::remove(directory / "bench_bound.csv");
+  if (arguments.bound) bound_log.emplace(directory, sweep.key);
   int code = done;
-  fmt::print("medians of the steps in ms; step: without the move; rebuild: CGAL's triangulation / step\n");
+  fmt::print(
+      "medians of the steps in ms; step: without the move; rebuild: CGAL's triangulation / step;\n"
+      "B/vert.: bytes held per vertex after the last step\n");
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     std::vector<Score> scores(arguments.strategies.size());
     std::size_t turn = 0;
-    const auto stopped = compare_strategies(scenarios[i], arguments.strategies, [&](const Round& round) {
-      scores[turn++ % scores.size()].add(round);
-      log.write(round, sweep.values[i]);
-    });
+    const auto measure_bound = [&](int step, const Mesh& tangled) {
+      for (const auto& sample : sample_bound(tangled, most_bound_samples)) {
+        bound_log->write(step, sample, sweep.values[i]);
+        plots.add(sample);
+      }
+    };
+    const auto view = bound_log ? TangledMeshViewer(measure_bound) : TangledMeshViewer();
+    const auto stopped = compare_strategies(
+        scenarios[i], arguments.strategies,
+        [&](const Round& round) {
+          scores[turn++ % scores.size()].add(round);
+          log.write(round, sweep.values[i]);
+          plots.add(round, sweep.values[i]);
+        },
+        view);
     fmt::print("\n{}\n", sweep.key.empty() ? scenarios[i].name() : sweep.key + " = " + sweep.values[i]);
     print_scores(arguments.strategies, scores);
     if (!stopped) continue;
@@ -180,8 +168,8 @@ int bench(const BenchArguments& arguments) {
     print_error(fmt::format("{}: {}", arguments.scenario, *stopped));
     code = not_valid;
   }
-  fmt::print("\npeak memory {:.0f} MiB for all strategies together\n{}\n", peak_memory(),
-             (directory / "bench.csv").string());
+  fmt::print("\npeak memory {:.0f} MiB for all strategies together\n{}\n{}\n", peak_memory(),
+             (directory / "bench.csv").string(), plots.write(directory));
   return code;
 }
 
@@ -202,12 +190,15 @@ void add_bench(CLI::App& program, Action& action) {
       .add_option("--set", arguments->overrides, "Change the scenario: key=value, as in mesh.vertices=100000")
       ->type_size(1)
       ->allow_extra_args(false);
+  command.add_flag("--bound", arguments->bound,
+                   "Explore from single inverted faces, too, and hold the time against Theorem 4.4's bound");
   command.add_flag("--force", arguments->force, "Replace the benchmark that is in the folder");
   command.add_option("--threads", arguments->threads, "Threads to use; default: all cores")
       ->check(CLI::Range(1, 1024));
   command.footer(
       "Each strategy is given the same positions at each step, and every mesh is validated outside what is\n"
-      "timed. Writes bench.csv, the columns of steps.csv behind the strategy's name, and bench_regions.csv.");
+      "timed. Writes bench.csv, the columns of steps.csv behind the strategy's name, bench_regions.csv, and\n"
+      "plots: scripts for gnuplot, and SVG where it is installed.");
   command.callback([arguments, &action] { action = [arguments] { return bench(*arguments); }; });
 }
 

@@ -1,6 +1,9 @@
 // Strategies side by side, as the program compares them.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
@@ -86,6 +89,31 @@ TEST_F(Bench, SweepsAKeyOfTheScenario) {
   EXPECT_EQ(rows[0].at("motion.0.amplitude"), "0.01");
   EXPECT_EQ(rows[5].at("motion.0.amplitude"), "0.5");
   EXPECT_LT(std::stoi(rows[0].at("inverted")), std::stoi(rows[3].at("inverted")));
+}
+
+TEST_F(Bench, DrawsWhatItMeasures) {
+  write("s.toml", jitter);
+  const Result result = run({"bench", "s.toml", "--strategies", "global,local,remesh", "--bound", "--sweep",
+                             "motion.0.amplitude=0.1,0.5", "-o", "out"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const bool has_gnuplot = std::system("gnuplot --version > /dev/null 2>&1") == 0;
+  for (const std::string name : {"sweep", "sizes", "explored", "bound"}) {
+    EXPECT_THAT(read_text(path("out/plots/" + name + ".gp")), ::testing::HasSubstr("$curve0 << end\n"))
+        << name;
+    EXPECT_EQ(std::filesystem::exists(path("out/plots/" + name + ".svg")), has_gnuplot) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("out/plots/steps.gp")));
+  const auto samples = table("out/bench_bound.csv");
+  ASSERT_GT(samples.size(), 20u);
+  for (const auto& row : samples) {
+    EXPECT_EQ(std::stoi(row.at("faces")), std::stoi(row.at("upright")) + std::stoi(row.at("inverted")));
+    EXPECT_GE(std::stoi(row.at("depth")), 2);  // something lies over the inverted faces
+    EXPECT_GT(std::stod(row.at("bound")), 0.0);
+  }
+  ASSERT_EQ(run({"bench", "s.toml", "--strategies", "global", "--force", "-o", "out"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("out/plots/steps.gp")));
+  EXPECT_FALSE(std::filesystem::exists(path("out/plots/bound.gp")));
+  EXPECT_FALSE(std::filesystem::exists(path("out/bench_bound.csv")));
 }
 
 TEST_F(Bench, StopsWhereThereIsNoValidMesh) {
