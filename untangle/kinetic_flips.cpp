@@ -121,7 +121,7 @@ bool KineticFlips::improve(int face) {
     flip(Mesh::edge_of(side));
     return true;
   }
-  return flip_on_line(face);
+  return flip_on_line(face) || flip_beside_meeting(face);
 }
 
 bool KineticFlips::leaves_upright_faces(int edge) const {
@@ -141,6 +141,27 @@ bool KineticFlips::flip_on_line(int face) {
   if (!is_flat({a, b, c}) || !is_flat({b, a, d}) || !gone_.insert(sorted(a, b)).second) return false;
   flip(longest);
   return true;
+}
+
+// Of a face whose corners u and v have met: turns one of them around the other by one edge, so that the face
+// between them is another one.
+bool KineticFlips::flip_beside_meeting(int face) {
+  const Triangle corners = mesh_.triangles()[face], sides = mesh_.sides(face);
+  for (int k = 0; k < 3; ++k) {
+    const int u = corners[k], v = corners[(k + 1) % 3];
+    if (!have_met(u, v)) continue;
+    for (const int side : {sides[(k + 1) % 3], sides[(k + 2) % 3]}) {
+      const int edge = Mesh::edge_of(side);
+      if (!can_be_flipped(mesh_, edge)) continue;
+      const auto [a, b, c, d] = around(mesh_, edge);
+      const bool starts_there = a == u || a == v;
+      if (!is_upright(starts_there ? Triangle{d, b, c} : Triangle{c, a, d})) continue;
+      if (!gone_.insert(sorted(a, b)).second) continue;
+      flip(edge);
+      return true;
+    }
+  }
+  return false;
 }
 
 void KineticFlips::flip(int edge) {
@@ -168,6 +189,10 @@ bool KineticFlips::is_upright(const Triangle& corners) const {
 
 bool KineticFlips::is_flat(const Triangle& corners) const {
   return area(corners).sign_at(now_) == 0;
+}
+
+bool KineticFlips::have_met(int u, int v) const {
+  return KineticQuadratic::dot(moving(u), moving(v), moving(v)).sign_at(now_) == 0;
 }
 
 // Which of three corners on a line lies between the others; none if two are at one place.

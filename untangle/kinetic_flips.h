@@ -24,10 +24,12 @@ struct KineticCounts {
 //
 // Degenerate: at one time several faces may collapse, or corners meet; "after" an instant stands for all of
 // some interval behind it. Edges that leave two faces upright after the instant are flipped first. A flat face
-// whose longest edge has another flat face beside it, all of them on one line, has that edge flipped nonetheless,
-// each at most once at that instant: faces on lines get shorter edges, until one with a corner off the line is
-// met. What still cannot be flipped stays as it is: a corner that has reached a constrained edge or the hull,
-// or another vertex. It may come back by itself, and is tried again whenever a face beside it changes.
+// whose longest edge has another flat face beside it, all of them on one line, has that edge flipped
+// nonetheless: faces on lines get other edges, until one with a corner off the line is met. Of two vertices
+// that meet one turns around the other, edge by edge. Both kinds of flips take an edge once at most at an
+// instant, which is why they end; the first kind leaves fewer faces that are not upright. What still cannot be
+// flipped stays as it is: a corner that has reached a constrained edge or the hull, or two others at once. It
+// may come back by itself, and is tried again whenever a face beside it changes.
 //
 // At the end, time 1, flat faces are treated like inverted ones.
 class KineticFlips {
@@ -58,12 +60,14 @@ class KineticFlips {
   void settle();
   bool improve(int face);
   bool flip_on_line(int face);
+  bool flip_beside_meeting(int face);
   void flip(int edge);
 
   MovingPoint moving(int vertex) const { return {before_[vertex], mesh_.position(vertex)}; }
   KineticQuadratic area(const Triangle& corners) const;
   bool is_upright(const Triangle& corners) const;
   bool is_flat(const Triangle& corners) const;
+  bool have_met(int u, int v) const;
   int inner_corner(const Triangle& corners) const;
   bool leaves_upright_faces(int edge) const;
 

@@ -272,10 +272,11 @@ TEST(Kinetic, LetsAVertexLeaveThroughAConstraintAndComeBack) {
   EXPECT_GT(totals.stuck, 0);
 }
 
-// Two vertices of a fan change places, through each other.
+// Two vertices change places, through each other: one turns around the other. Where a third is in their middle
+// three meet, and what is tangled is replaced: 8 pairs of the 9 vertices.
 TEST(Kinetic, LetsVerticesMeetOnTheirWay) {
   Random random(2);
-  Mesh mesh = build_mesh(random_grid(4, 4, random));
+  const Mesh mesh = build_mesh(random_grid(4, 4, random));
   const auto before = positions_of(mesh);
   Totals totals;
   for (int v = 0; v < mesh.n_vertices(); ++v) {
@@ -286,8 +287,9 @@ TEST(Kinetic, LetsVerticesMeetOnTheirWay) {
       EXPECT_EQ(check_kinetic(swapped, before, totals), "") << v << " " << w;
     }
   }
-  EXPECT_GT(totals.stuck, 0);
+  EXPECT_EQ(totals.repaired, 36);
   EXPECT_GT(totals.replacements, 0);
+  EXPECT_LE(totals.replacements, 8);
 }
 
 // --- for its callers ---
