@@ -17,8 +17,10 @@ constexpr int repeats = 5;
 // Vertices spatially sorted and edges, inserted into an empty triangulation region by region.
 double cgal_alone(const Mesh& mesh, const FaceSets& regions) {
   RegionMesher mesher;
+  Hole hole;
   for (int region = 0; region < regions.count(); ++region) {
-    if (mesher.run_generally(mesh, regions, region) != RegionMesher::Result::Done)
+    hole.dig(mesh, regions, region);
+    if (mesher.run_generally(mesh, hole) != RegionMesher::Result::Done)
       throw std::logic_error("a region that CGAL does not mesh");
   }
   return mesher.triangulator_ms();
