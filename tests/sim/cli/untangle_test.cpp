@@ -253,6 +253,8 @@ TEST_F(Untangle, BadRequests) {
   write("in.off", grid_off(4, {{6, 2.4, 1.2}}));
   expect_error(run({"untangle", "in.off", "-o", "out.off", "--strategy", "magic"}), 2,
                {"magic", "global", "remesh"});
+  expect_error(run({"untangle", "in.off", "-o", "out.off", "--strategy", "kinetic"}), 2,
+               {"strategy kinetic", "positions before the move"});
   expect_error(run({"untangle", "in.off", "-o", "out.off", "--seed", "3"}), 2, {"--seed"});
   expect_error(run({"untangle", "absent.off", "-o", "out.off"}), 2, {"absent.off: "});
   expect_error(run({"untangle", "in.off", "-o", "out.xyz"}), 2, {"out.xyz: ", ".xyz"});
