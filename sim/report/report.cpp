@@ -30,9 +30,10 @@ std::vector<std::string> names_in(const char* header) {
   return names;
 }
 
-const std::vector<std::string> needed_of_steps = {
-    "step",    "time",      "faces",      "inverted",       "degenerate", "replaced",   "min_angle_deg",
-    "move_ms", "detect_ms", "explore_ms", "triangulate_ms", "splice_ms",  "quality_ms", "total_ms"};
+const std::vector<std::string> needed_of_steps = {"step",      "time",       "faces",      "vertices",
+                                                  "inverted",  "degenerate", "replaced",   "min_angle_deg",
+                                                  "move_ms",   "detect_ms",  "explore_ms", "triangulate_ms",
+                                                  "splice_ms", "quality_ms", "total_ms"};
 
 // Collects the parts of a page.
 class Maker {
@@ -89,14 +90,21 @@ class Maker {
     for (std::size_t row = 0; row < steps_.size; ++row)
       times_[static_cast<int>(steps_.numbers["step"][row])] = steps_.numbers["time"][row];
     if (steps_.size == 0) note("No step has been made.");
-    std::string facts = data_["facts"];
+    const std::string facts = data_["facts"];
     if (steps_.size > 0)
-      facts = fmt::format("{:.0f} vertices, {:.0f} triangles, {} steps to time {:.6g}{}{}",
-                          steps_.has("vertices") ? steps_.numbers["vertices"].back() : 0.0,
-                          steps_.numbers["faces"].back(), steps_.size, steps_.numbers["time"].back(),
-                          facts.empty() ? "" : "; ", facts);
-    data_["facts"] = facts;
+      data_["facts"] = fmt::format("{}, {} step{} to time {:.6g}{}{}", size_of(steps_), steps_.size,
+                                   steps_.size == 1 ? "" : "s", steps_.numbers["time"].back(),
+                                   facts.empty() ? "" : "; ", facts);
     data_["steps"] = columns(thinned(steps_, "steps"), needed_of_steps);
+  }
+
+  // Of the meshes, of which a sweep may have several.
+  static std::string size_of(const Table& table) {
+    const auto range = [&](const char* name) {
+      const auto [least, most] = std::ranges::minmax(table.numbers.at(name));
+      return least < most ? fmt::format("{:.0f} to {:.0f}", least, most) : fmt::format("{:.0f}", most);
+    };
+    return fmt::format("{} vertices, {} triangles", range("vertices"), range("faces"));
   }
 
   // The tangled step of each bunch that has most inverted faces, so that peaks stay.
@@ -180,6 +188,8 @@ class Maker {
       if (name != "strategy" && distinct(values).size() > 1) bench["swept"].push_back(name);
     }
     if (rows.size == 0) note("The benchmark has no rows yet.");
+    if (rows.size > 0 && data_["facts"] == "")
+      data_["facts"] = fmt::format("{} strategies; {}", bench["strategies"].size(), size_of(rows));
     data_["bench"] = rows.size > 0 ? bench : Json();
   }
 

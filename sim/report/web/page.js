@@ -67,7 +67,8 @@ class Page {
     this.player.show(n);
     $("scrub").value = n;
     const replaced = list[n].patches.reduce((sum, p) => sum + p.changes.length / 7, 0);
-    $("now").textContent = `step ${frame.step}, time ${short(frame.time)}: ${replaced} replaced in ${list[n].regions.length || list[n].patches.length} regions`;
+    const regions = list[n].regions.length || list[n].patches.length;
+    $("now").textContent = `step ${frame.step}, time ${short(frame.time)}: ${replaced} replaced in ${regions} region${regions === 1 ? "" : "s"}`;
     this.plots?.moveTo(frame.time);
   }
 

@@ -1,8 +1,9 @@
 // Plots over time with uPlot. A click goes to the step.
 "use strict";
 
-// Okabe and Ito, in an order that also differs in lightness.
-const HUES = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#8c7a00"];
+// Okabe and Ito, in an order that also differs in lightness; what is hard to see on the page's ground comes last.
+const HUES = { light: ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#8c7a00"],
+  dark: ["#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#f0e442", "#0072b2"] };
 const colourOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const short = (value) => (value == null ? "–" : Number(value.toPrecision(4)).toString());
 const SYNC = "time";
@@ -26,27 +27,32 @@ class Plots {
   }
 
   // lines: [{ label, values, fill, shown }]; `shown` for the legend where `values` are sums.
-  // categories: names of x = 0, 1, ..., where x is no number.
-  add(title, x, lines, { log = false, xLabel = null, xLog = false, sync = true, categories = null } = {}) {
+  // ticks: where the x axis has them, by their names; isPoints: the values between have no meaning. Where lines may
+  // run over each other (isNested), the later ones are thinner.
+  add(title, x, lines, { log = false, xLabel = null, xLog = false, sync = true, ticks = null, isPoints = false, isNested = false } = {}) {
+    const hues = HUES[document.documentElement.classList.contains("dark") ? "dark" : "light"];
+    const extra = (i) => (isNested ? 1.6 * (lines.length - 1 - i) : 0);
     const holder = document.createElement("div");
     holder.className = "plot";
     this.place.append(holder);
     const series = lines.map(({ label, fill, shown }, i) => ({
-      label, stroke: HUES[i % HUES.length], width: fill ? 1 : 1.8, fill: fill ? HUES[i % HUES.length] + "cc" : undefined,
-      points: { show: x.length < 60, size: categories ? 8 : 5 }, spanGaps: false, paths: categories ? () => null : undefined,
+      label, stroke: hues[i % hues.length], width: fill ? 1 : 1.8 + extra(i), fill: fill ? hues[i % hues.length] + "cc" : undefined,
+      points: { show: x.length < 60, size: (isPoints ? 8 : 5) + 2 * extra(i) }, spanGaps: false, paths: isPoints ? () => null : undefined,
       value: (plot, value, index, at) => (at == null ? "–" : short(shown ? shown[at] : value)),
     }));
     // A logarithm has no place for 0: such points are left out.
     const cleaned = (values) => (log ? values.map((v) => (v > 0 ? v : null)) : values);
     const positive = log && lines.some((line) => line.values.some((v) => v > 0));
-    const named = categories && { splits: () => x, values: () => categories };
+    const first = x[0], last = x[x.length - 1], step = x.length > 1 ? (last - first) / (x.length - 1) / 2 : 0.5;
+    const range = ticks && (() => (xLog ? [first / 1.15, last * 1.15] : [first - step, last + step]));
+    const named = ticks && { splits: () => x, values: () => ticks, filter: (plot, splits) => splits };
     const options = {
       title, width: this.width(holder), height: 176,
       cursor: { sync: sync ? { key: SYNC } : undefined, drag: { x: true, y: false } },
-      scales: { x: { time: false, distr: xLog ? 3 : 1, range: categories ? [-0.5, x.length - 0.5] : undefined }, y: { distr: positive ? 3 : 1 } },
+      scales: { x: { time: false, distr: xLog ? 3 : 1, range: range ?? undefined }, y: { distr: positive ? 3 : 1 } },
       axes: [this.axis({ size: 34, label: xLabel ?? undefined, labelSize: xLabel ? 16 : 0, ...named }), this.axis()],
-      series: [{ label: xLabel ?? "time", value: (plot, value) => (categories ? categories[value] ?? "–" : short(value)) }, ...series],
-      hooks: { draw: [(plot) => this.mark(plot, sync)] },
+      series: [{ label: xLabel ?? "time", value: (plot, value, index, at) => (at == null ? "–" : ticks ? ticks[at] : short(value)) }, ...series],
+      hooks: { draw: [(plot) => this.mark(plot, sync)], setCursor: [(plot) => { if (sync && plot.cursor.idx == null) this.tellNow(plot); }] },
     };
     const plot = new uPlot(options, [x, ...lines.map((line) => cleaned(line.values))], holder);
     if (sync) this.watchClicks(plot);
@@ -71,7 +77,17 @@ class Plots {
     ctx.restore();
   }
 
-  moveTo(time) { this.now = time; for (const plot of this.list) plot.redraw(false, false); }
+  moveTo(time) {
+    this.now = time;
+    for (const plot of this.list) { plot.redraw(false, false); this.tellNow(plot); }
+  }
+
+  // The player's step in the legend, while nobody points at another.
+  tellNow(plot) {
+    if (this.now == null || plot.cursor.idx != null) return;
+    const idx = plot.valToIdx(this.now);
+    if (plot.legend.idx !== idx) plot.setLegend({ idx }, false);
+  }
 
   // The biggest sum is drawn first, the others over it.
   addStacked(title, x, parts) {
@@ -91,17 +107,19 @@ function addRunPlots(plots, { steps, sizes }) {
       { label: "largest", values: sizes.max }, { label: "9 of 10 up to", values: sizes.p90 },
       { label: "median", values: sizes.median }, { label: "regions", values: sizes.count }], { log: true });
   }
-  plots.add("replaced, % of the triangles", steps.time, [{ label: "%", values: share }]);
+  plots.add("replaced, % of the domain's triangles", steps.time, [{ label: "%", values: share }]);
   plots.add("smallest angle, degrees", steps.time, [{ label: "degrees", values: steps.min_angle_deg }]);
   plots.addStacked("time of a step, ms", steps.time, PHASES.map((name) => ({ label: name, values: steps[name + "_ms"] })));
 }
 
 const median = (values) => { const sorted = values.filter((v) => v != null).sort((a, b) => a - b); return sorted.length ? sorted[sorted.length >> 1] : null; };
-const BENCH = [["total_ms", "time of a step, ms", true], ["share", "replaced, % of the triangles", true], ["min_angle_deg", "smallest angle, degrees", false], ["inverted", "inverted triangles", false]];
+const BENCH = [["total_ms", "time of a step, ms", true], ["share", "replaced, % of the domain's triangles", true], ["min_angle_deg", "smallest angle, degrees", false], ["inverted", "inverted triangles", false]];
 
 // rows: columns by name, one strategy after the other. `swept`: names of the columns that a sweep has varied.
 function addBenchPlots(plots, { rows, strategies, swept }) {
   rows.share = rows.replaced.map((n, i) => (rows.faces[i] > 0 ? (100 * n) / rows.faces[i] : null));
+  // Without a valid mesh there is nothing to compare.
+  rows.accepted.forEach((isValid, i) => { if (!isValid) rows.share[i] = rows.total_ms[i] = rows.min_angle_deg[i] = null; });
   const curves = (x, of, column) => strategies.map((name) => {
     const found = new Map();
     rows.strategy.forEach((s, i) => { if (s === name) found.has(of(i)) ? found.get(of(i)).push(rows[column][i]) : found.set(of(i), [rows[column][i]]); });
@@ -114,13 +132,14 @@ function addBenchPlots(plots, { rows, strategies, swept }) {
   for (const [column, title, log] of BENCH) {
     if (swept.length === 0) {
       const x = axisOf((i) => rows.time[i]);
-      plots.add(title, x, curves(x, (i) => rows.time[i], column), { log, xLabel: "time", sync: false });
+      plots.add(title, x, curves(x, (i) => rows.time[i], column), { log, xLabel: "time", sync: false, isNested: true });
     }
     for (const key of swept) {
-      const all = axisOf((i) => rows[key][i]), categories = typeof all[0] === "string" ? all : null;
-      const x = categories ? all.map((_, i) => i) : all, isLog = !categories && x[0] > 0 && x[x.length - 1] > 3 * x[0];
-      const place = categories ? (i) => all.indexOf(rows[key][i]) : (i) => rows[key][i];
-      plots.add(`${title}, median`, x, curves(x, place, column), { log, xLog: isLog, xLabel: key, sync: false, categories });
+      const all = axisOf((i) => rows[key][i]), isPoints = typeof all[0] === "string";
+      const x = isPoints ? all.map((_, i) => i) : all, xLog = !isPoints && x[0] > 0 && x[x.length - 1] > 3 * x[0];
+      const place = isPoints ? (i) => all.indexOf(rows[key][i]) : (i) => rows[key][i];
+      const ticks = all.length <= 12 ? all.map((value) => (isPoints ? value : short(value))) : null;
+      plots.add(`${title}, median`, x, curves(x, place, column), { log, xLog, xLabel: key, sync: false, ticks, isPoints, isNested: true });
     }
   }
 }
