@@ -8,8 +8,6 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/predicates.h"
-
 namespace kinemesh {
 
 // a + b t + c t^2, times a positive number that does not matter.
@@ -20,8 +18,6 @@ struct ExactQuadratic {
 namespace {
 
 using Integer = boost::multiprecision::cpp_int;
-
-constexpr double unit = 0x1p-53;
 
 // --- exact ---
 
@@ -134,37 +130,20 @@ int sign_at_collapse(const ExactQuadratic& q, const ExactQuadratic& p) {
 
 // --- rounded ---
 
-double cross(const Point& u, const Point& v) {
-  return u.x * v.y - u.y * v.x;
-}
-
-double magnitude(const Point& u, const Point& v) {
-  return std::abs(u.x * v.y) + std::abs(u.y * v.x);
-}
-
 int sign(double value) {
   return (value > 0.0) - (value < 0.0);
 }
 
 }  // namespace
 
-// Differences of coordinates are right within a factor 1 +- u, u = 2^-53, their products within 3u + O(u^2),
-// start, mixed and end within 6u of the sums of their products' magnitudes; weights and sums of value_at take
-// 6u more: 16u has room for rounding the bound. What underflows is off by 2^-1074. Overflow makes bound or
-// value infinite or NaN, and comparisons fail.
 KineticQuadratic::KineticQuadratic(const std::array<MovingPoint, 3>& p, bool is_dot)
     : corners_(p), is_dot_(is_dot) {
-  const Point u0 = p[1].x0 - p[0].x0, u1 = p[1].x1 - p[0].x1;
   Point v0 = p[2].x0 - p[0].x0, v1 = p[2].x1 - p[0].x1;
   if (is_dot) {
     v0 = {-v0.y, v0.x};
     v1 = {-v1.y, v1.x};
   }
-  start_ = cross(u0, v0);
-  mixed_ = cross(u0, v1) + cross(u1, v0);
-  end_ = cross(u1, v1);
-  const double sum = magnitude(u0, v0) + magnitude(u0, v1) + magnitude(u1, v0) + magnitude(u1, v1);
-  error_ = 16.0 * unit * sum + underflow_error;
+  rounded_ = rounded_product(p[1].x0 - p[0].x0, p[1].x1 - p[0].x1, v0, v1);
 }
 
 KineticQuadratic KineticQuadratic::area(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c) {
@@ -182,15 +161,16 @@ const ExactQuadratic& KineticQuadratic::exact() const {
 
 double KineticQuadratic::value_at(double t) const {
   const double s = 1.0 - t;
-  return s * s * start_ + s * t * mixed_ + t * t * end_;
+  return s * s * rounded_.start + s * t * rounded_.mixed + t * t * rounded_.end;
 }
 
 // The slope lies between those at the ends of [0, 1], each right within four times the error.
 int KineticQuadratic::sign_at(const CollapseTime& t) const {
   const double width = t.high_ - t.low_;
-  const double steepest = std::max(std::abs(mixed_ - 2.0 * start_), std::abs(2.0 * end_ - mixed_));
+  const double steepest = std::max(std::abs(rounded_.mixed - 2.0 * rounded_.start),
+                                   std::abs(2.0 * rounded_.end - rounded_.mixed));
   const double value = value_at(t.low_ + 0.5 * width);
-  if (std::abs(value) > error_ + (steepest + 4.0 * error_) * width) return sign(value);
+  if (std::abs(value) > rounded_.error + (steepest + 4.0 * rounded_.error) * width) return sign(value);
   return sign_at_collapse(exact(), t.quadratic_.exact());
 }
 
@@ -202,25 +182,26 @@ int KineticQuadratic::sign_after(const CollapseTime& t) const {
 
 // Only a guess: where the rounded quadratic goes from positive to negative, and how steeply.
 double KineticQuadratic::guess_collapse(double& slope) const {
-  const double a = start_, b = mixed_ - 2.0 * start_, c = start_ - mixed_ + end_;
+  const double a = rounded_.start, b = rounded_.mixed - 2.0 * rounded_.start,
+               c = rounded_.start - rounded_.mixed + rounded_.end;
   slope = std::sqrt(std::max(0.0, b * b - 4.0 * a * c));
   return b <= 0.0 ? 2.0 * a / (slope - b) : (-b - slope) / (2.0 * c);  // without cancellation
 }
 
 // By the Bernstein coefficients over [t, 1].
 bool KineticQuadratic::is_surely_positive_from(double t) const {
-  const double middle = 0.5 * (1.0 - t) * mixed_ + t * end_;
-  return value_at(t) > error_ && middle > error_ && end_ > error_;
+  const double middle = 0.5 * (1.0 - t) * rounded_.mixed + t * rounded_.end;
+  return value_at(t) > rounded_.error && middle > rounded_.error && rounded_.end > rounded_.error;
 }
 
 bool KineticQuadratic::surely_collapses_in(double low, double high) const {
-  return low >= 0.0 && high <= 1.0 && value_at(low) > error_ && value_at(high) < -error_;
+  return low >= 0.0 && high <= 1.0 && value_at(low) > rounded_.error && value_at(high) < -rounded_.error;
 }
 
 std::optional<CollapseTime> KineticQuadratic::collapse_after(const CollapseTime* from) const {
   if (is_surely_positive_from(from ? from->low_ : 0.0)) return std::nullopt;
   double slope;
-  const double near = guess_collapse(slope), width = 4.0 * error_ / slope + 8.0 * unit;
+  const double near = guess_collapse(slope), width = 4.0 * rounded_.error / slope + 8.0 * 0x1p-53;
   std::optional<CollapseTime> time;
   if (surely_collapses_in(near - width, near + width)) {
     time = CollapseTime(*this, near - width, near + width);

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 
+#include "core/predicates.h"
 #include "core/types.h"
 
 namespace kinemesh {
@@ -15,6 +17,29 @@ namespace kinemesh {
 struct MovingPoint {
   Point x0, x1;
 };
+
+// (1 - t)^2 start + t (1 - t) mixed + t^2 end, each right within `error`, and so is its value in [0, 1].
+struct RoundedQuadratic {
+  double start, mixed, end, error;
+};
+
+// Of u x v, where u and v go from u0, v0 to u1, v1, themselves differences of exact points. A difference is
+// right within a factor 1 +- u, u = 2^-53, a product of two within 3u + O(u^2), each coefficient within 6u of
+// the sum of its products' magnitudes; weights and sums of a value take 6u more: 16u has room for rounding the
+// bound. What underflows is off by 2^-1074. Overflow makes bound or value infinite or NaN, so that comparisons
+// fail.
+inline RoundedQuadratic rounded_product(const Point& u0, const Point& u1, const Point& v0, const Point& v1) {
+  const double s0 = u0.x * v0.y, s1 = u0.y * v0.x, e0 = u1.x * v1.y, e1 = u1.y * v1.x;
+  const double m0 = u0.x * v1.y, m1 = u0.y * v1.x, m2 = u1.x * v0.y, m3 = u1.y * v0.x;
+  const double sum = std::abs(s0) + std::abs(s1) + std::abs(e0) + std::abs(e1) + std::abs(m0) + std::abs(m1) +
+                     std::abs(m2) + std::abs(m3);
+  return {s0 - s1, (m0 - m1) + (m2 - m3), e0 - e1, 16.0 * 0x1p-53 * sum + underflow_error};
+}
+
+// Throughout [0, 1], if its Bernstein coefficients are.
+inline bool is_surely_positive(const RoundedQuadratic& q) {
+  return q.start > q.error && 0.5 * q.mixed > q.error && q.end > q.error;
+}
 
 class CollapseTime;
 struct ExactQuadratic;
@@ -45,8 +70,7 @@ class KineticQuadratic {
 
   std::array<MovingPoint, 3> corners_;
   bool is_dot_;
-  double start_, mixed_, end_;                           // (1 - t)^2 start + t (1 - t) mixed + t^2 end
-  double error_;                                         // of what value_at returns
+  RoundedQuadratic rounded_;
   mutable std::shared_ptr<const ExactQuadratic> exact_;  // once it was needed
 };
 

@@ -6,12 +6,12 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
-#include "core/moving_face.h"
 #include "core/parallel.h"
 
 namespace kinemesh {
@@ -20,6 +20,11 @@ namespace {
 using Rational = boost::multiprecision::cpp_rational;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Corners of one face before and after.
+struct MovingFace {
+  std::array<Point, 3> x0, x1;
+};
 
 // Twice the signed area as a quadratic a + b s + c s^2 of the share s of the step.
 template <class Number>
@@ -56,6 +61,39 @@ double guess(const MovingFace& f) {
   for (const double r : {r1, r2})
     if (r >= 0.0 && r <= 1.0) first = std::min(first, r);
   return first;
+}
+
+// A side at share s = 0 or `until`, and a bound of what was summed up for it.
+struct RoundedSide {
+  Point value, magnitude;
+};
+
+RoundedSide side_at(const MovingFace& f, int corner, double s) {
+  const Point e0 = f.x0[corner] - f.x0[0], e1 = f.x1[corner] - f.x1[0];
+  const Point start = (1.0 - s) * e0, end = s * e1;
+  return {start + end, glm::abs(start) + glm::abs(end)};
+}
+
+// Whether u x v + v' x u' exceeds its rounding error. Each side is within 4u + O(u^2) of its magnitude, a
+// product within 9u, the sum of two crosses within 11u of the sum of magnitudes: 16u has room for rounding the
+// bound. What underflows is off by 2^-1074, times the other factor's magnitude. Overflow fails the comparison.
+bool is_surely_positive(const RoundedSide& u, const RoundedSide& v, const RoundedSide& w,
+                        const RoundedSide& z) {
+  const double value =
+      u.value.x * v.value.y - u.value.y * v.value.x + w.value.x * z.value.y - w.value.y * z.value.x;
+  const double magnitude = u.magnitude.x * v.magnitude.y + u.magnitude.y * v.magnitude.x +
+                           w.magnitude.x * z.magnitude.y + w.magnitude.y * z.magnitude.x;
+  const Point all = u.magnitude + v.magnitude + w.magnitude + z.magnitude;
+  return value > 16.0 * 0x1p-53 * magnitude + std::numeric_limits<double>::min() * (1.0 + all.x + all.y);
+}
+
+// A quadratic whose three Bernstein coefficients over [0, until] are positive has no root there; they are
+// u0 x v0, (u0 x v1 + u1 x v0) / 2 and u1 x v1.
+bool is_surely_upright(const MovingFace& f, double until) {
+  const RoundedSide u0 = side_at(f, 1, 0.0), v0 = side_at(f, 2, 0.0);
+  const RoundedSide u1 = side_at(f, 1, until), v1 = side_at(f, 2, until);
+  return is_surely_positive(u0, v0, u0, v0) && is_surely_positive(u0, v1, u1, v0) &&
+         is_surely_positive(u1, v1, u1, v1);
 }
 
 // Whether the quadratic is positive on all of [0, s), or of [0, s].

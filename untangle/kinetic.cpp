@@ -1,17 +1,21 @@
 #include "untangle/kinetic.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
-#include "core/disjoint_sets.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "untangle/detect.h"
+#include "untangle/hole.h"
 #include "untangle/quality/delaunay_flipping.h"
 #include "untangle/records.h"
 
 namespace kinemesh {
 namespace {
+
+constexpr int grain = 16;  // regions that are worth a task
 
 void require_before(const Mesh& mesh, std::span<const Point> before) {
   if (static_cast<int>(before.size()) == mesh.n_vertices()) return;
@@ -41,38 +45,38 @@ RepairOutcome KineticUntangling::repair(Mesh& mesh, const RepairOptions& options
   const auto tangles = detect(mesh);
   record.inverted = static_cast<int>(tangles.inverted.size());
   record.degenerate = static_cast<int>(tangles.flat.size());
-  record.components = inverted_components(mesh, tangles.inverted).count;
   record.detect_ms = detecting.milliseconds();
 
   const Stopwatch moving;
   Undo undo(mesh);
   KineticFlips flips(undo, options.before);
-  flips.run();
+  const bool is_upright = flips.run();
   counts_ = flips.counts();
   record.explore_ms = moving.milliseconds();
 
   const Stopwatch replacing;
-  outcome.defect = replace_tangles(undo, options.allow_escaped);
+  outcome.defect = replace_tangles(undo, is_upright ? Tangles{} : detect(mesh), options.allow_escaped);
   record.triangulate_ms = replacing.milliseconds();
   if (outcome.defect) return outcome;
 
   // Regions are described as they were; what follows that takes no memory, and stays.
   const Stopwatch describing;
   record.escaped = count_escaped(mesh, options);
-  find_regions(mesh, flips.flipped());
-  const Patch result = state_of(mesh, rewritten_faces(flips.flipped()));
+  const auto rewritten = undo.rewritten_faces();
+  const Patch result = state_of(mesh, rewritten);
   undo.take_back();
-  record.regions = describe_regions(mesh);
-  record.replaced = record.region_faces();
+  find_regions(mesh, rewritten);
+  describe_regions(mesh, record);
   mesh.splice(result);
   record.splice_ms = describing.milliseconds();
   return outcome;
 }
 
 // As `global` does. Nothing has been spliced if there is no valid mesh.
-std::optional<Defect> KineticUntangling::replace_tangles(Undo& undo, bool allow_escaped) {
+std::optional<Defect> KineticUntangling::replace_tangles(Undo& undo, const Tangles& tangles,
+                                                         bool allow_escaped) {
   const RepairOptions options{.allow_escaped = allow_escaped};
-  walk_.run(undo.mesh(), detect(undo.mesh()), replaced_.regions());
+  walk_.run(undo.mesh(), tangles, replaced_.regions());
   replaced_.start();
   if (auto defect = replaced_.remesh_new(undo.mesh(), options)) return defect;
   if (auto defect = replaced_.remesh_touching(undo.mesh(), options)) return defect;
@@ -81,54 +85,51 @@ std::optional<Defect> KineticUntangling::replace_tangles(Undo& undo, bool allow_
   return std::nullopt;
 }
 
-// Ascending.
-std::vector<int> KineticUntangling::rewritten_faces(std::span<const Edge> flipped) {
-  std::vector<int> faces;
-  for (const auto& [left, right] : flipped) faces.insert(faces.end(), {left, right});
-  for (int region = 0; region < replaced_.regions().count(); ++region) {
-    const auto& replaced = replaced_.patch(region).patch.faces;
-    faces.insert(faces.end(), replaced.begin(), replaced.end());
-  }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
-}
-
-// Faces that were flipped or replaced together belong together.
-void KineticUntangling::find_regions(const Mesh& mesh, std::span<const Edge> flipped) {
-  const auto faces = rewritten_faces(flipped);
-  const auto rank = [&](int face) {
-    return static_cast<int>(std::lower_bound(faces.begin(), faces.end(), face) - faces.begin());
-  };
-  DisjointSets joined(static_cast<int>(faces.size()));
-  for (const auto& [left, right] : flipped) joined.join(rank(left), rank(right));
-  for (int region = 0; region < replaced_.regions().count(); ++region) {
-    const auto& replaced = replaced_.patch(region).patch.faces;
-    for (const int face : replaced) joined.join(rank(replaced.front()), rank(face));
-  }
+// In the connectivity before, connected across edges. What has been flipped or replaced together hangs
+// together: flips and replacements only divide the polygon of their faces anew.
+void KineticUntangling::find_regions(const Mesh& mesh, std::span<const int> rewritten) {
   regions_.reset(mesh.n_faces());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const int root = joined.root(static_cast<int>(i));
-    regions_.add(faces[i], root == static_cast<int>(i) ? regions_.open() : regions_.set_of(faces[root]));
+  is_rewritten_.assign(mesh.n_faces(), false);
+  for (const int face : rewritten) is_rewritten_[face] = true;
+  std::vector<int> pending;
+  const auto take = [&](int face, int region) {
+    if (face == none || !is_rewritten_[face] || regions_.set_of(face) != none) return;
+    regions_.add(face, region);
+    pending.push_back(face);
+  };
+  for (const int first : rewritten) {
+    if (regions_.set_of(first) != none) continue;
+    const int region = regions_.open();
+    take(first, region);
+    while (!pending.empty()) {
+      const int face = pending.back();
+      pending.pop_back();
+      for (const int side : mesh.sides(face)) take(mesh.face_of(Mesh::opposite(side)), region);
+    }
+    regions_.sort(region);
   }
 }
 
-std::vector<RegionRecord> KineticUntangling::describe_regions(const Mesh& mesh) {
-  std::vector<RegionRecord> records;
-  Hole hole;
-  for (int region = 0; region < regions_.count(); ++region) {
-    hole.dig(mesh, regions_, region);
-    records.push_back(describe_region(mesh, hole));
-  }
+void KineticUntangling::describe_regions(const Mesh& mesh, RepairRecord& record) {
+  auto& records = record.regions;
+  records.resize(regions_.count());
+  parallel_parts(regions_.count(), grain, [&](int, int begin, int end) {
+    Hole hole;
+    for (int region = begin; region < end; ++region) {
+      hole.dig(mesh, regions_, region);
+      records[region] = describe_region(mesh, hole);
+    }
+  });
   for (int region = 0; region < replaced_.regions().count(); ++region) {
     const auto& [patch, replaced] = replaced_.patch(region);
     if (patch.faces.empty()) continue;  // absorbed
-    auto& record = records[regions_.set_of(patch.faces.front())];
-    record.fallback = true;
-    record.retries += replaced.retries;
+    auto& around = records[regions_.set_of(patch.faces.front())];
+    around.fallback = true;
+    around.retries += replaced.retries;
   }
   std::sort(records.begin(), records.end(), is_seeded_before);
-  return records;
+  for (const auto& region : records) record.components += region.components;
+  record.replaced = record.region_faces();
 }
 
 }  // namespace kinemesh

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "untangle/detect.h"
 #include "untangle/face_sets.h"
 #include "untangle/global_walk.h"
 #include "untangle/kinetic_flips.h"
@@ -17,8 +18,8 @@ namespace kinemesh {
 // constrained edge, the hull or another vertex on its way, the connectivity reached is taken to the end, and
 // what is tangled there is replaced as `global` does: so a mesh is found whenever there is one, and only then.
 //
-// Regions are what connected flips, and these replacements, have rewritten; `fallback` marks those with a
-// replacement. Counts of tangles are of the connectivity before at the positions after, so that a region may
+// Regions are the connected pieces of what flips and these replacements have rewritten; `fallback` marks those
+// with a replacement. Counts of tangles are of the connectivity before at the positions after, so that a region may
 // have none. `retain` has no meaning. Cost: O(n) to find the faces that collapse, O(log n) for each event and
 // flip; memory for those only, about 500 bytes each.
 class KineticUntangling : public Strategy {
@@ -31,14 +32,14 @@ class KineticUntangling : public Strategy {
   const KineticCounts& counts() const { return counts_; }  // of the last repair
 
  private:
-  [[nodiscard]] std::optional<Defect> replace_tangles(Undo& undo, bool allow_escaped);
-  void find_regions(const Mesh& mesh, std::span<const Edge> flipped);
-  std::vector<int> rewritten_faces(std::span<const Edge> flipped);
-  std::vector<RegionRecord> describe_regions(const Mesh& mesh);
+  [[nodiscard]] std::optional<Defect> replace_tangles(Undo& undo, const Tangles& tangles, bool allow_escaped);
+  void find_regions(const Mesh& mesh, std::span<const int> rewritten);
+  void describe_regions(const Mesh& mesh, RepairRecord& record);
 
   GlobalWalk walk_;
   RegionRepair replaced_;
   FaceSets regions_;
+  std::vector<char> is_rewritten_;  // per face
   KineticCounts counts_;
 };
 

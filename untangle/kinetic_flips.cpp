@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/moving_face.h"
+#include "core/face_sweep.h"
 #include "core/parallel.h"
 #include "untangle/detect.h"
 
@@ -15,7 +15,7 @@ constexpr int grain = 1 << 14;  // faces that are worth a task
 bool may_collapse(const Triangle& t, const Point* x0, const Point* x1) {
   const auto [a, b, c] = t;
   if (x0[a] == x1[a] && x0[b] == x1[b] && x0[c] == x1[c]) return false;
-  return !is_surely_upright({{x0[a], x0[b], x0[c]}, {x1[a], x1[b], x1[c]}}, 1.0);
+  return !is_surely_positive(rounded_product(x0[b] - x0[a], x1[b] - x1[a], x0[c] - x0[a], x1[c] - x1[a]));
 }
 
 // Ascending.
@@ -23,8 +23,11 @@ std::vector<int> faces_that_may_collapse(const Mesh& mesh, std::span<const Point
   const auto triangles = mesh.triangles();
   std::vector<std::vector<int>> found(n_parts(mesh.n_faces(), grain));
   parallel_parts(mesh.n_faces(), grain, [&](int part, int begin, int end) {
-    for (int f = begin; f < end; ++f)
+    for (int f = begin; f < end; ++f) {
+      fetch_ahead(triangles, before, f);
+      fetch_ahead(triangles, mesh.positions(), f);
       if (may_collapse(triangles[f], before.data(), mesh.positions().data())) found[part].push_back(f);
+    }
   });
   std::vector<int> all;
   for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
@@ -74,19 +77,29 @@ bool KineticFlips::Later::operator()(const Event& e, const Event& f) const {
 KineticFlips::KineticFlips(Undo& undo, std::span<const Point> before)
     : undo_(undo), mesh_(undo.mesh()), before_(before) {}
 
-void KineticFlips::run() {
+bool KineticFlips::run() {
+  follow();
+  return finish();
+}
+
+void KineticFlips::follow() {
   for (const int face : faces_that_may_collapse(mesh_, before_)) schedule(face, nullptr);
   while (!events_.empty()) {
     const Event event = events_.top();
     events_.pop();
     if (mesh_.triangles()[event.face] == event.corners) handle(event);
   }
+}
+
+bool KineticFlips::finish() {
+  const auto tangles = detect(mesh_);
+  if (tangles.empty()) return true;
   start_instant(CollapseTime::end());
   is_at_end_ = true;
-  const auto tangles = detect(mesh_);
   doubtful_ = tangles.flat;
   doubtful_.insert(doubtful_.end(), tangles.inverted.begin(), tangles.inverted.end());
   settle();
+  return false;
 }
 
 void KineticFlips::handle(const Event& event) {
@@ -165,10 +178,9 @@ bool KineticFlips::flip_beside_meeting(int face) {
 }
 
 void KineticFlips::flip(int edge) {
-  flipped_.push_back({mesh_.face_of(2 * edge), mesh_.face_of(2 * edge + 1)});
   undo_.flip(edge);
   ++counts_.flips;
-  for (const int face : flipped_.back()) {
+  for (const int face : {mesh_.face_of(2 * edge), mesh_.face_of(2 * edge + 1)}) {
     if (!is_at_end_) schedule(face, &now_);
     doubtful_.push_back(face);
     for (const int side : mesh_.sides(face)) {

@@ -37,12 +37,11 @@ class KineticFlips {
   // Pre: the mesh, at `before`, is valid. Both stay where they are.
   KineticFlips(Undo& undo, std::span<const Point> before);
 
-  // Cost: a sweep over the faces, in parallel, and O(log n) for each event and flip. Whatever it throws, undo
-  // knows what has been flipped.
-  void run();
+  // True if every face is upright at the end; otherwise some may not be. Cost: a sweep over the faces, in
+  // parallel, and O(log n) for each event and flip. Whatever it throws, undo knows what has been flipped.
+  [[nodiscard]] bool run();
 
   const KineticCounts& counts() const { return counts_; }
-  std::span<const Edge> flipped() const { return flipped_; }  // the two faces of each flip, in turn
 
  private:
   struct Event {
@@ -54,6 +53,8 @@ class KineticFlips {
     bool operator()(const Event& e, const Event& f) const;
   };
 
+  void follow();
+  bool finish();
   void handle(const Event& event);
   void start_instant(const CollapseTime& time);
   void schedule(int face, const CollapseTime* from);
@@ -79,7 +80,6 @@ class KineticFlips {
   bool is_at_end_ = false;
   std::vector<int> doubtful_;  // faces that may not be upright at this instant
   std::set<Edge> gone_;        // ends of edges on lines that were flipped at this instant
-  std::vector<Edge> flipped_;
   KineticCounts counts_;
 };
 

@@ -1,5 +1,7 @@
 #include "untangle/undo.h"
 
+#include <algorithm>
+
 namespace kinemesh {
 
 Undo::Undo(Mesh& mesh)
@@ -30,6 +32,14 @@ void Undo::note(int face) {
     old.outgoing[k] = mesh_.outgoing(old.corners[k]);
   }
   old_.push_back(old);
+}
+
+std::vector<int> Undo::rewritten_faces() const {
+  std::vector<int> faces;
+  for (const auto& old : old_) faces.push_back(old.face);
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
 }
 
 // What a change rewrites is noted before it, all its corners with it, so that what is written last, the oldest,

@@ -21,6 +21,8 @@ class Undo {
   void splice(const Patch& patch);
   void flip(int edge);
 
+  std::vector<int> rewritten_faces() const;  // ascending, each once
+
   void keep() noexcept { old_.clear(); }
   void take_back() noexcept;  // all that was not kept, bit for bit
 
