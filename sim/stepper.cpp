@@ -86,11 +86,13 @@ class ChangesInPlace {
 };
 
 void describe_mesh(const Mesh& mesh, StepRecord& record) {
+  const Stopwatch clock;
   const Measures measures = measure(mesh);
   record.vertices = mesh.n_user_vertices();
   record.faces = mesh.n_user_faces();
   record.min_angle_deg = measures.min_angle_deg;
   record.min_area = measures.min_area;
+  record.measure_ms = clock.milliseconds();
 }
 
 void require_forward(double dt) {

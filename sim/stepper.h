@@ -46,6 +46,7 @@ struct StepRecord {
   double min_angle_deg = 0.0;   // of the domain's faces after the step
   double min_area = 0.0;
   double move_ms = 0.0, total_ms = 0.0;
+  double measure_ms = 0.0;  // of the total, to find the angle and area above; not in steps.csv
   bool accepted = false;
 };
 
