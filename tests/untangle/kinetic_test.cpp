@@ -13,65 +13,20 @@
 #include "core/error.h"
 #include "core/predicates.h"
 #include "tests/core/snapshot.h"
-#include "tests/untangle/oracle.h"
-#include "tests/untangle/properties.h"
+#include "tests/untangle/in_motion.h"
 #include "tests/untangle/random_tangles.h"
 #include "tests/untangle/repairs.h"
-#include "untangle/detect.h"
 
 namespace kinemesh::test {
 namespace {
 
-struct Totals {
-  int repaired = 0, failed = 0;
-  int events = 0, flips = 0, stuck = 0;
-  int replacements = 0;  // repairs that needed some
-};
-
-int count_fallbacks(const RepairRecord& record) {
-  return static_cast<int>(std::count_if(record.regions.begin(), record.regions.end(),
-                                        [](const RegionRecord& r) { return r.fallback; }));
-}
-
-// Tangles of the connectivity before at the positions after: each lies in a region.
-std::string miscounted(const Mesh& moved, const RepairRecord& record) {
-  const auto tangles = detect(moved);
-  int inverted = 0, flat = 0;
-  for (const auto& region : record.regions) {
-    inverted += region.inverted;
-    flat += region.degenerate;
-  }
-  const bool is_right = inverted == static_cast<int>(tangles.inverted.size()) &&
-                        inverted == record.inverted && flat == static_cast<int>(tangles.flat.size()) &&
-                        flat == record.degenerate &&
-                        record.components == static_cast<int>(oracle::inverted_components(moved).size());
-  return is_right ? "" : "tangles miscounted";
-}
-
-// Success just where `global` has it, the contract of all repairs, and a failure without traces.
-std::string check_kinetic(const Mesh& moved, std::span<const Point> before, Totals& totals) {
-  Mesh mesh = moved, other = moved;
-  KineticUntangling kinetic;
-  const auto outcome = kinetic.repair(mesh, {.allow_escaped = true, .before = before});
-  totals.events += kinetic.counts().events;
-  totals.flips += kinetic.counts().flips;
-  totals.stuck += kinetic.counts().stuck;
-  if (static_cast<bool>(outcome) != static_cast<bool>(repair(other, true)))
-    return outcome ? "claims a mesh where none exists" : "failed: " + outcome.defect->message();
-  ++(outcome ? totals.repaired : totals.failed);
-  if (!outcome) return snapshot_of(mesh) == snapshot_of(moved) ? "" : "a failure left its traces";
-  totals.replacements += count_fallbacks(outcome.record) > 0;
-  const auto wrong = contract_broken(moved, mesh, outcome);
-  return wrong.empty() ? miscounted(moved, outcome.record) : wrong;
-}
-
 template <class Make>
-Totals expect_kinetic(int seeds, const Make& make) {
-  Totals totals;
+MotionTotals expect_kinetic(int seeds, const Make& make) {
+  MotionTotals totals;
   int broken = 0;
   for (int seed = 1; seed <= seeds && broken < 3; ++seed) {
     const Tangle tangle = make(seed);
-    const auto wrong = check_kinetic(tangle.mesh, tangle.before, totals);
+    const auto wrong = check_in_motion(tangle.mesh, tangle.before, totals);
     EXPECT_EQ(wrong, "") << tangle.about << " " << seed;
     broken += !wrong.empty();
   }
@@ -123,13 +78,13 @@ TEST(Kinetic, EndsAsGlobalDoesWhereBordersAndInterfacesMove) {
 }
 
 TEST(Kinetic, GoesOnForManySteps) {
-  Totals totals;
+  MotionTotals totals;
   KineticUntangling kinetic;
   for (int seed = 1; seed <= 20; ++seed) {
     Tangle tangle = in_a_square(seed);
     Random random(seed);
     for (int step = 0; step < 40; ++step) {
-      ASSERT_EQ(check_kinetic(tangle.mesh, tangle.before, totals), "") << seed << " " << step;
+      ASSERT_EQ(check_in_motion(tangle.mesh, tangle.before, totals), "") << seed << " " << step;
       ASSERT_TRUE(kinetic.repair(tangle.mesh, {.before = tangle.before}));
       tangle.before = positions_of(tangle.mesh);
       move_free(tangle.mesh, [&](const Point& p) {
@@ -217,8 +172,8 @@ TEST(Kinetic, TakesRowsThroughRows) {
         Random random(n);
         const auto tangle = moved("rows", build_mesh(random_grid(n, n, random)),
                                   [&](const Point& p) { return p.y == 2 ? Point(p.x + aside, to) : p; });
-        Totals totals;
-        ASSERT_EQ(check_kinetic(tangle.mesh, tangle.before, totals), "") << n << " " << to << " " << aside;
+        MotionTotals totals;
+        ASSERT_EQ(check_in_motion(tangle.mesh, tangle.before, totals), "") << n << " " << to << " " << aside;
         EXPECT_EQ(totals.stuck, 0) << n << " " << to << " " << aside;
         EXPECT_EQ(totals.replacements, 0) << n << " " << to << " " << aside;
       }
@@ -238,8 +193,8 @@ TEST(Kinetic, LetsTwoVerticesPassInOneEdge) {
     };
     place(mesh, find({5, 6}), {5, height});
     place(mesh, find({7, 2}), {7, 8 - height});
-    Totals totals;
-    EXPECT_EQ(check_kinetic(mesh, before, totals), "") << height;
+    MotionTotals totals;
+    EXPECT_EQ(check_in_motion(mesh, before, totals), "") << height;
     EXPECT_EQ(totals.stuck, 0);
     EXPECT_EQ(totals.replacements, 0);
     EXPECT_GE(totals.flips, 2);
@@ -267,8 +222,8 @@ TEST(Kinetic, LetsAVertexLeaveThroughAConstraintAndComeBack) {
             Orientation::CounterClockwise);
   EXPECT_EQ(orientation(position_of(mesh, find(a)), position_of(mesh, find(b)), position_of(mesh, find(c))),
             Orientation::Clockwise);
-  Totals totals;
-  EXPECT_EQ(check_kinetic(mesh, before, totals), "");
+  MotionTotals totals;
+  EXPECT_EQ(check_in_motion(mesh, before, totals), "");
   EXPECT_GT(totals.stuck, 0);
 }
 
@@ -278,13 +233,13 @@ TEST(Kinetic, LetsVerticesMeetOnTheirWay) {
   Random random(2);
   const Mesh mesh = build_mesh(random_grid(4, 4, random));
   const auto before = positions_of(mesh);
-  Totals totals;
+  MotionTotals totals;
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     for (int w = 0; w < v; ++w) {
       if (mesh.is_constrained(v) || mesh.is_constrained(w)) continue;
       Mesh swapped = mesh;
       std::swap(swapped.positions()[v], swapped.positions()[w]);
-      EXPECT_EQ(check_kinetic(swapped, before, totals), "") << v << " " << w;
+      EXPECT_EQ(check_in_motion(swapped, before, totals), "") << v << " " << w;
     }
   }
   EXPECT_EQ(totals.repaired, 36);

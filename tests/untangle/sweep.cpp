@@ -1,4 +1,4 @@
-// Long sweeps over the properties of tests/untangle/properties.h: sweep_untangle [SEEDS] [FIRST]. Prints
+// Long sweeps over the properties of tests/untangle/properties.h and in_motion.h: sweep_untangle [SEEDS] [FIRST]. Prints
 // every seed that breaks one; exit 1 if there is any.
 #include <charconv>
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <exception>
 #include <iostream>
 
+#include "tests/untangle/in_motion.h"
 #include "tests/untangle/properties.h"
 
 namespace {
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
   const auto seeds = number(argc, argv, 1, 100000), first = number(argc, argv, 2, 1);
   const auto broken = sweep("random tangles", check_random_tangle, first, seeds) +
                       sweep("lattice tangles", check_lattice_tangle, first, seeds) +
-                      sweep("polyomino tangles", check_polyomino_tangle, first, seeds);
+                      sweep("polyomino tangles", check_polyomino_tangle, first, seeds) +
+                      sweep("tangles in motion", check_tangles_in_motion, first, seeds);
   return broken == 0 ? 0 : 1;
 }
