@@ -1,5 +1,6 @@
 #include "sim/cli/console.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -43,6 +44,12 @@ bool has_live_line() {
 
 bool has_colour() {
   return has_live_line() && !is_set("NO_COLOR");
+}
+
+std::size_t live_line_width() {
+  winsize size{};
+  const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? size.ws_col - 1u : std::string::npos;
 }
 
 }  // namespace kinemesh::cli

@@ -1,6 +1,7 @@
 // Lines on stderr, in the one form that users and scripts can rely on.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace kinemesh::cli {
@@ -18,5 +19,6 @@ void print_note(const std::string& message);
 // (https://no-color.org).
 bool has_live_line();
 bool has_colour();
+std::size_t live_line_width();  // characters that fit into it; more would wrap and stay
 
 }  // namespace kinemesh::cli

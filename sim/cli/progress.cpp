@@ -36,6 +36,13 @@ std::string describe(const StepRecord& record, const RunPlan& plan, int n_faces)
                      100.0 * repair.replaced / std::max(1, n_faces), record.total_ms);
 }
 
+// Single spaces where double ones take too much room, and what fits.
+std::string fitted(std::string text, std::size_t width) {
+  if (text.size() <= width) return text;
+  for (std::size_t at = 0; (at = text.find("  ", at)) != std::string::npos;) text.erase(at, 1);
+  return text.substr(0, width);
+}
+
 }  // namespace
 
 Progress::Progress(Verbosity verbosity)
@@ -82,7 +89,7 @@ void Progress::show(const StepRecord& record, int n_faces) {
     return;
   }
   const char* colour = !has_colour_ ? "" : record.repair.regions.empty() ? "\x1b[32m" : "\x1b[33m";
-  say(fmt::format("\r{}{}{}\x1b[K", colour, text, has_colour_ ? "\x1b[0m" : ""));
+  say(fmt::format("\r{}{}{}\x1b[K", colour, fitted(text, live_line_width()), has_colour_ ? "\x1b[0m" : ""));
   is_line_open_ = true;
 }
 

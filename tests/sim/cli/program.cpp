@@ -105,9 +105,10 @@ bool ProgramTest::has_terminals() {
   return true;
 }
 
-Result ProgramTest::run_on_terminal(const std::vector<std::string>& arguments) const {
+Result ProgramTest::run_on_terminal(const std::vector<std::string>& arguments, unsigned short columns) const {
   int master = -1, slave = -1;
-  if (openpty(&master, &slave, nullptr, nullptr, nullptr) != 0) return {};
+  const winsize size{24, columns, 0, 0};
+  if (openpty(&master, &slave, nullptr, nullptr, &size) != 0) return {};
   fcntl(master, F_SETFD, FD_CLOEXEC);
   const pid_t process = start(arguments, slave);
   close(slave);

@@ -38,9 +38,9 @@ class ProgramTest : public ::testing::Test {
   pid_t start(const std::vector<std::string>& arguments, int err_file = -1) const;  // -1: kept for wait
   Result wait(pid_t process) const;
 
-  // Likewise, with a terminal as its stderr. Pre: has_terminals(), as machines with /dev/pts do.
+  // Likewise, with a terminal as its stderr, of so many columns (0: unknown). Pre: has_terminals(), as machines with /dev/pts do.
   static bool has_terminals();
-  Result run_on_terminal(const std::vector<std::string>& arguments) const;
+  Result run_on_terminal(const std::vector<std::string>& arguments, unsigned short columns = 0) const;
 
   // The contract of an error: this code, nothing on stdout, one line "kinemesh: ..." that has all of `words`.
   void expect_error(const Result& result, int code, std::initializer_list<const char*> words) const;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <sstream>
 #include <thread>
 
 #include "program.h"
@@ -119,6 +120,20 @@ TEST_F(Run, TerminalHasOneLiveLine) {
   unsetenv("NO_COLOR");
   EXPECT_TRUE(has(plain.err, "step 20/20"));
   EXPECT_FALSE(has(plain.err, "\x1b[3")) << plain.err;
+}
+
+TEST_F(Run, TheLiveLineDoesNotWrap) {
+  if (!has_terminals()) GTEST_SKIP() << "no /dev/pts";
+  write("s.toml", jitter_toml);
+  setenv("TERM", "xterm", 1);
+  setenv("NO_COLOR", "1", 1);
+  const Result result = run_on_terminal({"run", "s.toml"}, 40);
+  unsetenv("NO_COLOR");
+  EXPECT_TRUE(has(result.err, "step 20/20 t = ")) << result.err;
+  std::istringstream lines(result.err);
+  for (std::string line; std::getline(lines, line, '\r');)
+    EXPECT_LE(line.substr(0, line.find('\x1b')).size(), 39u) << line;
+  for (const auto& line : lines_of(result.out)) EXPECT_LE(line.size(), 100u) << line;
 }
 
 TEST_F(Run, DryRunSaysThePlanAndWritesNothing) {
