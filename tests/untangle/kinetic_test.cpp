@@ -279,6 +279,26 @@ TEST(Kinetic, DoesNotDependOnThreadsOrOnWhatItDidBefore) {
   }
 }
 
+// Up to where doubles cannot multiply any more.
+TEST(Kinetic, DoesTheSameTurnedAndAtAnySize) {
+  for (int seed = 1; seed <= 60; ++seed) {
+    const Tangle tangle = in_a_square(seed);
+    Mesh plain = tangle.mesh;
+    ASSERT_TRUE(KineticUntangling().repair(plain, {.before = tangle.before}));
+    for (const double size : {1.0, 0x1p-1000, 0x1p-400, 0x1p400, 0x1p1000}) {
+      Mesh mesh = tangle.mesh;
+      auto before = tangle.before;
+      for (const auto positions : {mesh.positions(), std::span<Point>(before)})
+        for (auto& p : positions) p = size * Point(-p.y, p.x);
+      const auto outcome = KineticUntangling().repair(mesh, {.before = before});
+      ASSERT_TRUE(outcome);
+      const auto positions = plain.positions();
+      std::copy(positions.begin(), positions.end(), mesh.positions().begin());
+      EXPECT_TRUE(snapshot_of(mesh) == snapshot_of(plain)) << seed << " " << size;
+    }
+  }
+}
+
 TEST(Kinetic, HasToKnowWhereVerticesCameFrom) {
   const Tangle tangle = in_a_square(1);
   for (const std::size_t n : {std::size_t{0}, tangle.before.size() - 1}) {
