@@ -1,7 +1,8 @@
-// From arrays to a mesh, and the sweep over it.
+// From arrays to a mesh, with and without padding to fill in, and the sweep over it.
 #include <benchmark/benchmark.h>
 
 #include "core/build.h"
+#include "core/shapes.h"
 #include "core/validate.h"
 #include "inputs.h"
 #include "untangle/detect.h"
@@ -20,6 +21,18 @@ void build(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * data.n_faces());
 }
 
+// A hole, and a frame around it all.
+void build_padded(benchmark::State& state) {
+  static const MeshData data = make_annulus(100'000);
+  for (auto _ : state) {
+    const Mesh mesh = build_mesh(data, {.frame = 0.25});
+    state.PauseTiming();
+    if (const auto defect = validate(mesh)) state.SkipWithError(defect->message().c_str());
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(state.iterations() * data.n_faces());
+}
+
 void sweep(benchmark::State& state) {
   const Mesh& mesh = square_mesh(static_cast<int>(state.range(0)));
   for (auto _ : state) {
@@ -29,6 +42,7 @@ void sweep(benchmark::State& state) {
 }
 
 BENCHMARK(build)->Arg(100'000)->Arg(500'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(build_padded)->Unit(benchmark::kMillisecond);
 BENCHMARK(sweep)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace kinemesh::aims {
 namespace {
 
-constexpr int steps = 7;
+constexpr int steps = 5;
 
 struct Regime {
   std::string what;
