@@ -18,9 +18,11 @@ using OpenMesh::VertexHandle;
 
 class MeshBuilder {
  public:
-  MeshBuilder(const MeshData& data, const BuildOptions& options) : data_(data), options_(options) {}
+  // mesh: empty, and where it stays: OpenMesh's connectivity does not move, it copies.
+  MeshBuilder(const MeshData& data, const BuildOptions& options, Mesh& mesh)
+      : data_(data), options_(options), mesh_(mesh) {}
 
-  Mesh build() {
+  void build() {
     check_input();
     place_vertices();
     place_faces();
@@ -28,7 +30,6 @@ class MeshBuilder {
     connect();
     constrain();
     if (auto defect = validate_connectivity(mesh_)) throw NoEmbedding(std::move(*defect));
-    return std::move(mesh_);
   }
 
  private:
@@ -47,9 +48,9 @@ class MeshBuilder {
 
   const MeshData& data_;
   const BuildOptions& options_;
-  Mesh mesh_;
-  std::vector<int> opposite_;  // per side, padding included
-  std::vector<int> halfedge_;  // per side
+  Mesh& mesh_;
+  std::vector<int> opposite_;  // per side, padding included; until all is connected
+  std::vector<int> halfedge_;  // per side; likewise
 };
 
 namespace {
@@ -135,6 +136,8 @@ void MeshBuilder::place_faces() {
   }
   mesh_.n_user_faces_ = data_.n_faces();
   mesh_.user_face_ = order_by_lowest_vertex(triangles, mesh_.n_vertices());
+  mesh_.triangles_.reserve(triangles.size());
+  mesh_.labels_.reserve(triangles.size());
   for (const int f : mesh_.user_face_) {
     mesh_.triangles_.push_back(triangles[f]);
     mesh_.labels_.push_back(data_.label(f));
@@ -165,6 +168,10 @@ void MeshBuilder::add_padding(std::span<const Triangle> padding) {
   auto inner = pair_sides(padding, mesh_.n_vertices());
   for (int& s : inner.opposite) s = s == none ? none : s + first_side;
   opposite_.insert(opposite_.end(), inner.opposite.begin(), inner.opposite.end());
+  const std::size_t n_faces = mesh_.triangles_.size() + padding.size();
+  mesh_.triangles_.reserve(n_faces);
+  mesh_.labels_.reserve(n_faces);
+  mesh_.user_face_.reserve(n_faces);
   mesh_.triangles_.insert(mesh_.triangles_.end(), padding.begin(), padding.end());
   mesh_.labels_.resize(mesh_.triangles_.size(), padding_label);
   for (int f = mesh_.n_user_faces_; f < mesh_.n_faces(); ++f) mesh_.user_face_.push_back(f);
@@ -212,6 +219,8 @@ void MeshBuilder::connect() {
     if (s % 3 == 0) topology.set_halfedge_handle(FaceHandle(s / 3), side);
   }
   link_border(hull);
+  opposite_ = std::vector<int>();
+  halfedge_ = std::vector<int>();
   mesh_.edge_constraint_.assign(n_edges, none);
 }
 
@@ -306,7 +315,9 @@ int MeshBuilder::find_edge(int user_a, int user_b) const {
 }
 
 Mesh build_mesh(const MeshData& data, const BuildOptions& options) {
-  return MeshBuilder(data, options).build();
+  Mesh mesh;
+  MeshBuilder(data, options, mesh).build();
+  return mesh;
 }
 
 }  // namespace kinemesh

@@ -52,9 +52,8 @@ void do_steps(Stepper& stepper, const Motion& motion) {
 
 // Of everything the process holds: mesh, motion, stepper, program.
 double peak_of_steps(int n, const AnyField& field) {
-  Mesh mesh = build_mesh(make_square(n));
-  const Motion motion(mesh, {{field, {}}});
-  Stepper stepper(std::move(mesh));
+  Stepper stepper(build_mesh(make_square(n)));
+  const Motion motion(stepper.mesh(), {{field, {}}});
   forget_peak();
   do_steps(stepper, motion);
   const double peak = peak_bytes();
@@ -81,6 +80,11 @@ MeshData uneven_grid(int m) {
   return data;
 }
 
+// Without what it is made of.
+Mesh mesh_of_grid(int m) {
+  return build_mesh(uneven_grid(m));
+}
+
 // Whatever asks for more fails with std::bad_alloc.
 void limit_memory(double bytes) {
   const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
@@ -98,10 +102,9 @@ void huge(int n) {
   limit_memory(16.0 * gib);
   const int m = static_cast<int>(std::lround(std::sqrt(n))) - 1;
   const Stopwatch building;
-  Mesh mesh = build_mesh(uneven_grid(m));
+  Stepper stepper(mesh_of_grid(m));
   const double build_s = 1e-3 * building.milliseconds();
-  const Motion motion(mesh, {{rotor(), {}}});
-  Stepper stepper(std::move(mesh));
+  const Motion motion(stepper.mesh(), {{rotor(), {}}});
   const Stopwatch stepping;
   do_steps(stepper, motion);
   const double steps_s = 1e-3 * stepping.milliseconds();
