@@ -1,4 +1,5 @@
 set(KINEMESH_GEOMETRY_SOURCES
+  compare_areas.cpp
   exact.cpp
   kinetic_predicates.cpp
   predicates.cpp

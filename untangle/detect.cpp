@@ -64,6 +64,12 @@ Tangles detect(const Mesh& mesh) {
   return all;
 }
 
+Tangles tangles_among(const Mesh& mesh, std::span<const int> faces) {
+  Tangles found;
+  for (const int face : faces) judge(mesh.positions().data(), mesh.triangles().data(), face, found);
+  return found;
+}
+
 Components inverted_components(const Mesh& mesh, std::span<const int> inverted) {
   const auto rank_of = [&](int face) {
     const auto found = std::lower_bound(inverted.begin(), inverted.end(), face);

@@ -19,6 +19,9 @@ struct Tangles {
 // number.
 Tangles detect(const Mesh& mesh);
 
+// The same for these faces, in their order.
+Tangles tangles_among(const Mesh& mesh, std::span<const int> faces);
+
 // Inverted components [Agarwal 2008, §2]: for each face of `tangles.inverted`, in its order, the number of
 // its class under "shares an edge with", numbered by first appearance.
 struct Components {

@@ -24,9 +24,10 @@ void FaceSets::add(int face, int set) {
 }
 
 void FaceSets::absorb(int into, int other) {
-  const auto moved = std::move(faces_[other]);
+  auto& all = faces_[into];
+  all.insert(all.end(), faces_[other].begin(), faces_[other].end());  // may throw, the rest does not
+  for (const int f : faces_[other]) set_of_[f] = into;
   faces_[other].clear();
-  for (const int f : moved) add(f, into);
 }
 
 void FaceSets::sort(int set) {

@@ -4,9 +4,11 @@
 
 #include "core/error.h"
 #include "untangle/auto.h"
+#include "untangle/flips.h"
 #include "untangle/global.h"
 #include "untangle/kinetic.h"
 #include "untangle/local.h"
+#include "untangle/optimize.h"
 #include "untangle/remesh.h"
 
 namespace kinemesh {
@@ -29,6 +31,10 @@ std::vector<StrategyInfo>& registry() {
           "flips an edge whenever a face collapses on its way through the step; always ends valid"),
       info<AutomaticRepair>("auto",
                             "global, or remesh where most of the mesh would be replaced; always ends valid"),
+      info<EdgeFlips>("flips",
+                      "flips edges while that makes the inverted area smaller; may get stuck and says so"),
+      info<VertexOptimization>(
+          "optimize", "moves vertices to where the smallest area around is largest; may fail and says so"),
   };
   return all;
 }

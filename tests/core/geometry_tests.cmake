@@ -1,4 +1,5 @@
 set(KINEMESH_GEOMETRY_TESTS
+  compare_areas_test.cpp
   exact_oracle.cpp
   kinetic_predicates_test.cpp
   predicates_test.cpp

@@ -1,4 +1,4 @@
-// What surrounds a vertex or lies beside an edge, as smoothing and flipping ask for it.
+// What surrounds a vertex or lies beside an edge, as moving and flipping ask for it.
 #pragma once
 
 #include "core/mesh.h"
@@ -9,6 +9,11 @@ namespace kinemesh {
 inline bool is_upright(const Mesh& mesh, int face) {
   const auto [a, b, c] = mesh.corners(face);
   return orientation(a, b, c) == Orientation::CounterClockwise;
+}
+
+// A vertex that may be placed anew: the user's, not fixed, on no constrained edge.
+inline bool is_movable(const Mesh& mesh, int v) {
+  return mesh.user_vertex(v) != none && !mesh.is_isolated(v) && !mesh.is_constrained(v) && !mesh.is_fixed(v);
 }
 
 // Calls visit(h) for each half-edge h that leaves the vertex, counter-clockwise while its faces are upright.

@@ -2,6 +2,7 @@
 set(KINEMESH_QUALITY_SOURCES
   quality/delaunay_flipping.cpp
   quality/delaunay_upkeep.cpp
+  quality/max_min_area.cpp
   quality/optimal_point.cpp
   quality/quality_pass.cpp
   quality/smoothing.cpp

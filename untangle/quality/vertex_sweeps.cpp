@@ -10,10 +10,6 @@
 namespace kinemesh {
 namespace {
 
-bool is_free(const Mesh& mesh, int v) {
-  return mesh.user_vertex(v) != none && !mesh.is_isolated(v) && !mesh.is_constrained(v) && !mesh.is_fixed(v);
-}
-
 double distance_to_nearest_neighbour(const Mesh& mesh, int vertex) {
   double nearest = std::numeric_limits<double>::infinity();
   for_each_outgoing(mesh, vertex, [&](int h) {
@@ -48,7 +44,7 @@ bool try_place(Mesh& mesh, int vertex, const Point& place, const VertexSweeps::D
 
 VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& options) {
   std::fill(moved_.begin(), moved_.end(), false);
-  for (int v = 0; v < mesh.n_vertices(); ++v) restless_[v] = is_free(mesh, v);
+  for (int v = 0; v < mesh.n_vertices(); ++v) restless_[v] = is_movable(mesh, v);
   Counts counts;
   for (int moves = 1; moves > 0 && counts.sweeps < options.max_sweeps; ++counts.sweeps) {
     moves = 0;
@@ -66,7 +62,7 @@ bool VertexSweeps::visit(Mesh& mesh, int v, const SmoothingOptions& options) {
                                                                   : move_to_optimum(mesh, v, demand);
   if (!moves) return false;
   moved_[v] = restless_[v] = true;
-  for_each_outgoing(mesh, v, [&](int h) { restless_[mesh.to(h)] = is_free(mesh, mesh.to(h)); });
+  for_each_outgoing(mesh, v, [&](int h) { restless_[mesh.to(h)] = is_movable(mesh, mesh.to(h)); });
   return true;
 }
 

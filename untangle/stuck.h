@@ -1,0 +1,16 @@
+// How a strategy that may fail says so.
+#pragma once
+
+#include <string>
+
+#include "core/defect.h"
+#include "core/mesh.h"
+#include "untangle/detect.h"
+
+namespace kinemesh {
+
+// Names the face that is inverted or flat with the smallest of the user's numbers (one of the padding if none
+// is of the domain), as the mesh is now, and how many there are. `who` is stuck: "edge flips". Pre: some are.
+Defect stuck_defect(const Mesh& mesh, const Tangles& left, const std::string& who);
+
+}  // namespace kinemesh
