@@ -10,6 +10,7 @@
 #include "untangle/quality/around.h"
 #include "untangle/records.h"
 #include "untangle/stuck.h"
+#include "untangle/undo.h"
 
 namespace kinemesh {
 namespace {
@@ -67,6 +68,21 @@ bool would_double(const Mesh& mesh, int edge) {
   return c == d || are_joined(mesh, c, d);
 }
 
+// Of the faces that were tangled at first or have been rewritten: no other can be.
+Tangles tangles_left(const Mesh& mesh, const Tangles& first, std::vector<int> rewritten) {
+  rewritten.insert(rewritten.end(), first.inverted.begin(), first.inverted.end());
+  rewritten.insert(rewritten.end(), first.flat.begin(), first.flat.end());
+  std::sort(rewritten.begin(), rewritten.end());
+  rewritten.erase(std::unique(rewritten.begin(), rewritten.end()), rewritten.end());
+  return tangles_among(mesh, rewritten);
+}
+
+// These faces as they are now, ready to be written again. The edges between them are as unconstrained as ever.
+Patch state_of(const Mesh& mesh, const std::vector<int>& faces) {
+  return mesh.inverse_of(
+      {.faces = faces, .triangles = {}, .labels = {}, .halfedges = {}, .edges = {}, .constraints = {}});
+}
+
 }  // namespace
 
 // The signed areas of both faces have a sum T that no flip changes. Neither inverted: the inverted area is 0.
@@ -81,20 +97,13 @@ bool flip_untangles(const Mesh& mesh, int edge) {
   return after.is_upright() && !before.is_upright();  // one was flat
 }
 
-// Takes all flips back when it goes out of scope.
 class EdgeFlips::Run {
  public:
-  Run(EdgeFlips& scratch, Mesh& mesh) : mesh_(mesh), rewritten_(scratch.rewritten_), queue_(scratch.queue_) {
-    rewritten_.reset(mesh.n_faces());
+  Run(EdgeFlips& scratch, Undo& undo)
+      : undo_(undo), mesh_(undo.mesh()), rewritten_(scratch.rewritten_), queue_(scratch.queue_) {
+    rewritten_.reset(mesh_.n_faces());
     queue_.clear();
   }
-  ~Run() {
-    std::reverse(before_.outgoing.begin(),
-                 before_.outgoing.end());  // the first that was noted is the last set
-    mesh_.splice(before_);
-  }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
 
   void flip_all(const Tangles& tangles) {
     for (const int face : tangles.inverted) push_sides(face);
@@ -106,19 +115,6 @@ class EdgeFlips::Run {
       for (const int edge : std::exchange(blocked_, {})) push(edge);
     }
   }
-
-  // Of the faces that were tangled at first or have been rewritten: no other can be.
-  Tangles left(const Tangles& tangles) const {
-    std::vector<int> faces = before_.faces;
-    faces.insert(faces.end(), tangles.inverted.begin(), tangles.inverted.end());
-    faces.insert(faces.end(), tangles.flat.begin(), tangles.flat.end());
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    return tangles_among(mesh_, faces);
-  }
-
-  // What the flips have made of the mesh.
-  Patch result() const { return mesh_.inverse_of(before_); }
 
  private:
   void push_sides(int face) {
@@ -151,21 +147,14 @@ class EdgeFlips::Run {
   }
 
   void flip(int edge) {
-    const int left = note(mesh_.face_of(2 * edge)), right = note(mesh_.face_of(2 * edge + 1));
+    const int left = set_of(mesh_.face_of(2 * edge)), right = set_of(mesh_.face_of(2 * edge + 1));
     if (left != right) join(left, right);
-    mesh_.flip(edge);
+    undo_.flip(edge);
     ++n_flips_;
   }
 
-  // Keeps what the face is before its first flip, the number of faces last: memory may run out on the way.
-  int note(int face) {
-    if (rewritten_.set_of(face) != none) return rewritten_.set_of(face);
-    for (const int v : mesh_.triangles()[face]) before_.outgoing.push_back({v, mesh_.outgoing(v)});
-    before_.triangles.push_back(mesh_.triangles()[face]);
-    before_.labels.push_back(mesh_.label(face));
-    before_.halfedges.push_back(mesh_.sides(face));
-    before_.faces.push_back(face);
-    rewritten_.add(face, rewritten_.open());
+  int set_of(int face) {
+    if (rewritten_.set_of(face) == none) rewritten_.add(face, rewritten_.open());
     return rewritten_.set_of(face);
   }
 
@@ -174,12 +163,12 @@ class EdgeFlips::Run {
     rewritten_.absorb(t_is_larger ? t : s, t_is_larger ? s : t);
   }
 
-  Mesh& mesh_;
+  Undo& undo_;
+  const Mesh& mesh_;
   FaceSets& rewritten_;
   std::vector<Candidate>& queue_;  // a heap
   std::vector<int> blocked_;       // edges whose flips would double others
   int n_flips_ = 0;
-  Patch before_;  // the faces that have been rewritten, as they were
 };
 
 RepairOutcome EdgeFlips::repair(Mesh& mesh, const RepairOptions& options) {
@@ -193,35 +182,47 @@ RepairOutcome EdgeFlips::repair(Mesh& mesh, const RepairOptions& options) {
   record.detect_ms = detecting.milliseconds();
 
   const Stopwatch flipping;
-  Patch patch;
-  if (!tangles.empty()) {
-    Run run(*this, mesh);
-    run.flip_all(tangles);
-    const auto left = run.left(tangles);
-    if (left.empty())
-      patch = run.result();
-    else
-      outcome.defect = stuck_defect(mesh, left, "edge flips");
-  }
+  Undo undo(mesh);
+  Run(*this, undo).flip_all(tangles);
+  const auto faces = rewritten_faces();
+  const auto left = tangles_left(mesh, tangles, faces);
   record.triangulate_ms = flipping.milliseconds();
-  if (outcome.defect) return outcome;
+  if (!left.empty()) {
+    outcome.defect = stuck_defect(mesh, left, "edge flips");
+    return outcome;
+  }
 
-  const Stopwatch splicing;
-  splice(mesh, patch, record);
+  // Regions are described as they were.
+  const Stopwatch describing;
   record.escaped = count_escaped(mesh, options);
-  record.splice_ms = splicing.milliseconds();
+  const Patch result = state_of(mesh, faces);
+  undo.take_back();
+  record.regions = describe_regions(mesh);
+  record.replaced = static_cast<int>(faces.size());
+  mesh.splice(result);
+  record.splice_ms = describing.milliseconds();
   return outcome;
 }
 
-void EdgeFlips::splice(Mesh& mesh, const Patch& patch, RepairRecord& record) {
-  record.replaced = static_cast<int>(patch.faces.size());
-  for (int set = 0; record.replaced > 0 && set < rewritten_.count(); ++set) {
-    if (rewritten_.faces(set).empty()) continue;  // joined another
+// Ascending; sorts the sets.
+std::vector<int> EdgeFlips::rewritten_faces() {
+  std::vector<int> faces;
+  for (int set = 0; set < rewritten_.count(); ++set) {
     rewritten_.sort(set);
-    record.regions.push_back(describe_region(mesh, rewritten_, set));
+    faces.insert(faces.end(), rewritten_.faces(set).begin(), rewritten_.faces(set).end());
   }
-  std::sort(record.regions.begin(), record.regions.end(), seeded_before);
-  mesh.splice(patch);
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+std::vector<RegionRecord> EdgeFlips::describe_regions(const Mesh& mesh) const {
+  std::vector<RegionRecord> records;
+  for (int set = 0; set < rewritten_.count(); ++set) {
+    if (rewritten_.faces(set).empty()) continue;  // joined another
+    records.push_back(describe_region(mesh, rewritten_, set));
+  }
+  std::sort(records.begin(), records.end(), is_seeded_before);
+  return records;
 }
 
 }  // namespace kinemesh

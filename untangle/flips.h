@@ -32,7 +32,8 @@ class EdgeFlips : public Strategy {
 
  private:
   class Run;
-  void splice(Mesh& mesh, const Patch& patch, RepairRecord& record);
+  std::vector<int> rewritten_faces();
+  std::vector<RegionRecord> describe_regions(const Mesh& mesh) const;
 
   // The largest gain comes first, of equal ones the edge with the smaller number.
   struct Candidate {
