@@ -7,6 +7,7 @@
 #include "core/compare_areas.h"
 #include "core/predicates.h"
 #include "core/stopwatch.h"
+#include "untangle/hole.h"
 #include "untangle/quality/around.h"
 #include "untangle/records.h"
 #include "untangle/stuck.h"
@@ -217,9 +218,11 @@ std::vector<int> EdgeFlips::rewritten_faces() {
 
 std::vector<RegionRecord> EdgeFlips::describe_regions(const Mesh& mesh) const {
   std::vector<RegionRecord> records;
+  Hole hole;
   for (int set = 0; set < rewritten_.count(); ++set) {
     if (rewritten_.faces(set).empty()) continue;  // joined another
-    records.push_back(describe_region(mesh, rewritten_, set));
+    hole.dig(mesh, rewritten_, set);
+    records.push_back(describe_region(mesh, hole));
   }
   std::sort(records.begin(), records.end(), is_seeded_before);
   return records;
