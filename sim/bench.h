@@ -27,9 +27,9 @@ using TangledMeshViewer = std::function<void(int step, const Mesh& tangled)>;
 
 // Runs the scenario once for all strategies, in the place of its own. At each step the motion takes the common
 // positions of the step before, whatever the strategies have made of the mesh, and each strategy is given the
-// result; its own mesh differs from the others' by its connectivity only. One that finds no valid mesh where
-// another does goes on with a copy of the other's mesh; its round is not accepted. Steps are timed one after
-// the other, in turn. Calls `view`, if there is one, before each step, `tell` for each round, and returns why it ended early, if it did: no strategy had
+// result; its own mesh differs from the others' by its connectivity, and in its positions if it moves vertices.
+// One that finds no valid mesh where another does goes on with a copy of the other's mesh; its round is not
+// accepted. Steps are timed in turn. Calls `view`, if there is one, before each step, `tell` for each round, and returns why it ended early, if it did: no strategy had
 // a valid mesh. Throws InputError for unknown strategies and for what set_up (sim/setup.h) refuses,
 // std::logic_error for a mesh that a strategy claims to be valid and is not.
 std::optional<std::string> compare_strategies(const Scenario& scenario,

@@ -72,9 +72,9 @@ class Stepper {
   // time, steps_done: of an earlier stepper whose work this one goes on with.
   explicit Stepper(Mesh mesh, const StepperOptions& options = {}, double time = 0.0, int steps_done = 0);
 
-  // To given positions, one per user's vertex in the user's order; with quality "smooth", vertices may be
-  // elsewhere afterwards. Throws InputError for another number of them or a dt that is negative or not finite;
-  // mesh and time are then as they were, as after any other exception.
+  // To given positions, one per user's vertex in the user's order; with quality "smooth" or strategy "optimize"
+  // vertices may be elsewhere afterwards. Throws InputError for another number of them or a dt that is negative
+  // or not finite; mesh and time are then as they were, as after any other exception.
   [[nodiscard]] StepOutcome step(std::span<const Point> positions, double dt);
 
   // By a motion from time() to time() + dt; `motion` was built on this stepper's initial mesh.
