@@ -191,7 +191,7 @@ void add_bench(CLI::App& program, Action& action) {
       ->type_size(1)
       ->allow_extra_args(false);
   command.add_flag("--bound", arguments->bound,
-                   "Explore from single inverted faces, too, and hold the time against Theorem 4.4's bound");
+                   "Also explore from single faces; hold the time against Theorem 4.4");
   command.add_flag("--force", arguments->force, "Replace the benchmark that is in the folder");
   command.add_option("--threads", arguments->threads, "Threads to use; default: all cores")
       ->check(CLI::Range(1, 1024));

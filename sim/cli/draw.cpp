@@ -162,7 +162,7 @@ void add_draw(CLI::App& program, Action& action) {
   add_mesh_input(command, arguments->mesh);
   command.add_option("-o,--output", arguments->output, "File to write: .svg or .png")->required();
   command.add_option("--region", arguments->region,
-                     "Draw a region in four pictures: R.json of `kinemesh untangle MESH --report R.json`");
+                     "Draw a region of this report of `kinemesh untangle` in four pictures");
   command.add_option("--number", arguments->number, "Which region of the report; default: the largest");
   command
       .add_option("--step", arguments->step, "MESH is the folder of a run with patches.bin: draw this step")

@@ -25,12 +25,14 @@ TEST_F(Usage, VersionIsTheProjects) {
 TEST_F(Usage, HelpNamesEveryCommand) {
   const Result result = run({"--help"});
   EXPECT_EQ(result.code, 0);
-  for (const char* command : {"run", "replay", "bench", "report", "check", "untangle", "convert", "list"})
+  for (const char* command :
+       {"run", "replay", "bench", "report", "draw", "check", "untangle", "convert", "list"})
     EXPECT_TRUE(has(result.out, std::string("\n  ") + command + " ")) << command;
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {
-  for (const char* command : {"run", "replay", "bench", "report", "check", "untangle", "convert", "list"}) {
+  for (const char* command :
+       {"run", "replay", "bench", "report", "draw", "check", "untangle", "convert", "list"}) {
     const Result result = run({command, "--help"});
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_TRUE(has(result.out, "Usage: kinemesh " + std::string(command))) << result.out;
