@@ -170,6 +170,19 @@ class Reports(unittest.TestCase):
                     self.assertLess(math.dist(p, q), data["mesh"]["box"][2])
             self.assertGreater(sum(frame[2] for frame in frames), 50)
 
+    def test_vertices_that_a_repair_has_moved_are_where_it_put_them(self):
+        folder = run_rotor(self.folder, "optimized", 'repair.strategy="optimize"')
+        html, data = self.report("optimized")
+        frames = self.meshes(html, data)
+        self.assertEqual(len(frames), 13)
+        for step in (3, 6, 9, 12):
+            points, faces, replaced = frames[step]
+            expected_points, expected_faces = read_vtu(folder / f"mesh_{step:06}.vtu")
+            self.assertEqual((faces, replaced), (expected_faces, 0))
+            for p, q in zip(points, expected_points):
+                self.assertLess(math.dist(p, q), data["mesh"]["box"][2])
+        self.assertGreater(sum(data["steps"]["inverted"]), 5)
+
     def test_plots_hold_the_logs(self):
         _, data = self.report("rotor")
         header, *rows = [line.split(",") for line in (self.folder / "rotor/steps.csv").read_text().split("\n")[:-1]]

@@ -8,6 +8,9 @@ const colourOf = (name) => getComputedStyle(document.documentElement).getPropert
 const short = (value) => (value == null ? "–" : Number(value.toPrecision(4)).toString());
 const SYNC = "time";
 
+// Areas and shares would deceive without their zero.
+const fromZero = (plot, min, max) => [0, max > 0 ? uPlot.rangeNum(0, max, 0.1, true)[1] : 1];
+
 class Plots {
   constructor(place, goTo) {
     this.place = place;
@@ -49,7 +52,7 @@ class Plots {
     const options = {
       title, width: this.width(holder), height: 176,
       cursor: { sync: sync ? { key: SYNC } : undefined, drag: { x: true, y: false } },
-      scales: { x: { time: false, distr: xLog ? 3 : 1, range: range ?? undefined }, y: { distr: positive ? 3 : 1 } },
+      scales: { x: { time: false, distr: xLog ? 3 : 1, range: range ?? undefined }, y: positive ? { distr: 3 } : { range: fromZero } },
       axes: [this.axis({ size: 34, label: xLabel ?? undefined, labelSize: xLabel ? 16 : 0, ...named }), this.axis()],
       series: [{ label: xLabel ?? "time", value: (plot, value, index, at) => (at == null ? "–" : ticks ? ticks[at] : short(value)) }, ...series],
       hooks: { draw: [(plot) => this.mark(plot, sync)], setCursor: [(plot) => { if (sync && plot.cursor.idx == null) this.tellNow(plot); }] },
