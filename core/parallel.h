@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <atomic>
@@ -31,6 +32,20 @@ void parallel_parts(int n, int grain, const Body& body) {
     body(part, start(part), start(part + 1));
     done.fetch_add(1, std::memory_order_release);
   });
+  done.load(std::memory_order_acquire);
+}
+
+// Calls both, at the same time where there are threads. Neither may write what the other reads.
+template <class First, class Second>
+void parallel_pair(const First& first, const Second& second) {
+  std::atomic<int> started{0}, done{0};
+  started.fetch_add(1, std::memory_order_release);
+  const auto counted = [&](const auto& work) {
+    started.load(std::memory_order_acquire);
+    work();
+    done.fetch_add(1, std::memory_order_release);
+  };
+  tbb::parallel_invoke([&] { counted(first); }, [&] { counted(second); });
   done.load(std::memory_order_acquire);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "untangle/records.h"
 
@@ -34,26 +35,46 @@ std::optional<RepairOutcome> GlobalUntangling::repair_within(const Limits& limit
   if (record.inverted + record.degenerate > limits.tangled) return std::nullopt;
   walk_.start(mesh, tangles, repair_.regions());
   walk_.give_up_beyond(limits.in_regions);
-  repair_.start();
-  for (bool more = true; more && !outcome.defect;) {
-    const Stopwatch exploring;
-    more = walk_.advance(faces_at_hand);
-    record.explore_ms += exploring.milliseconds();
-    if (walk_.is_too_far()) return std::nullopt;
-    const Stopwatch triangulating;
-    outcome.defect = repair_.remesh_new(mesh, options);
-    record.triangulate_ms += triangulating.milliseconds();
-  }
-  const Stopwatch retrying;
-  if (!outcome.defect) outcome.defect = repair_.remesh_touching(mesh, options);
-  record.triangulate_ms += retrying.milliseconds();
+  outcome.defect = plan(mesh, options, record);
   if (outcome.defect) return outcome;
+  if (walk_.is_too_far()) return std::nullopt;
 
   const Stopwatch splicing;
   splice(mesh, record);
   record.splice_ms = splicing.milliseconds();
   record.escaped = count_escaped(mesh, options);
   return outcome;
+}
+
+// The next regions are walked while those of the last walk are re-meshed.
+std::optional<Defect> GlobalUntangling::plan(const Mesh& mesh, const RepairOptions& options,
+                                             RepairRecord& record) {
+  bool more = true;
+  std::optional<Defect> defect;
+  const auto walk = [&] {
+    const Stopwatch exploring;
+    more = more && walk_.advance(faces_at_hand);
+    record.explore_ms += exploring.milliseconds();
+  };
+  const auto remesh = [&] {
+    const Stopwatch triangulating;
+    defect = repair_.remesh_taken(mesh, options);
+    record.triangulate_ms += triangulating.milliseconds();
+  };
+  repair_.start();
+  walk();
+  for (bool is_last = false; !is_last && !defect && !walk_.is_too_far();) {
+    const Stopwatch taking;
+    repair_.take_new(mesh);
+    record.triangulate_ms += taking.milliseconds();
+    is_last = !more;
+    parallel_pair(remesh, walk);
+  }
+  if (defect || walk_.is_too_far()) return defect;
+  const Stopwatch retrying;
+  defect = repair_.remesh_touching(mesh, options);
+  record.triangulate_ms += retrying.milliseconds();
+  return defect;
 }
 
 // Not before all regions have been re-meshed, so that a failure has nothing to undo.

@@ -8,9 +8,10 @@
 
 namespace kinemesh {
 
-// Detect, walk, re-mesh the regions in all threads, and only then splice: whatever fails leaves the mesh as it was. Faces
-// outside the regions R* = phi(I)* stay; a valid mesh exists and is found unless constrained edges touch,
-// vertices coincide, or a vertex has left the padded mesh [Agarwal 2008, §5 and Lemma 3.3].
+// Detect, walk and re-mesh the regions in all threads, and only then splice: whatever fails leaves the mesh as
+// it was. With more than one thread explore_ms and triangulate_ms overlap. Faces outside the regions
+// R* = phi(I)* stay; a valid mesh exists and is found unless constrained edges touch, vertices coincide, or a
+// vertex has left the padded mesh [Agarwal 2008, §5 and Lemma 3.3].
 class GlobalUntangling : public Strategy {
  public:
   std::string_view name() const override { return "global"; }
@@ -24,6 +25,7 @@ class GlobalUntangling : public Strategy {
                                                            const RepairOptions& options);
 
  private:
+  std::optional<Defect> plan(const Mesh& mesh, const RepairOptions& options, RepairRecord& record);
   void splice(Mesh& mesh, RepairRecord& record);
   std::vector<int> regions_by_seed();
 

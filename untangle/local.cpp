@@ -149,7 +149,7 @@ bool LocalUntangling::remesh(const Mesh& mesh, const LocalExploration& explorati
 
 // False where not all goes well: then there is more to replace, or a reason that the whole region tells.
 bool LocalUntangling::remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region) {
-  if (!retention_.run(mesh, sets_, 0)) return false;
+  if (!retention_.run(mesh, hole_.faces)) return false;
   rest_.dig(mesh, retention_.rest(), 0);
   if (mesher_.run(mesh, rest_) != RegionMesher::Result::Done) return false;
   finish_region(mesh, retention_.rest(), rest_, options, std::move(mesher_.new_faces()), region);

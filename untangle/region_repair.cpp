@@ -38,19 +38,30 @@ void RegionRepair::prepare_new() {
   for (; n_prepared_ < regions_.count(); ++n_prepared_) clear(patches_[n_prepared_]);
 }
 
-std::optional<Defect> RegionRepair::remesh_new(const Mesh& mesh, const RepairOptions& options) {
-  const int first = n_prepared_;
+void RegionRepair::take_new(const Mesh& mesh) {
+  first_taken_ = n_prepared_;
   prepare_new();
-  attempts_.assign(n_prepared_ - first, {});
-  parallel_parts(n_prepared_ - first, grain, [&](int, int begin, int end) {
-    for (int i = begin; i < end; ++i) attempts_[i] = attempt(mesh, options, first + i);
+  const std::size_t n = n_prepared_ - first_taken_;
+  attempts_.assign(n, {});
+  if (n > holes_.size()) holes_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) holes_[i].dig(mesh, regions_, first_taken_ + static_cast<int>(i));
+}
+
+std::optional<Defect> RegionRepair::remesh_taken(const Mesh& mesh, const RepairOptions& options) {
+  const int n = static_cast<int>(attempts_.size());
+  parallel_parts(n, grain, [&](int, int begin, int end) {
+    for (int i = begin; i < end; ++i) attempts_[i] = attempt(mesh, options, first_taken_ + i, holes_[i]);
   });
-  for (int region = first; region < n_prepared_; ++region) {
-    auto& result = attempts_[region - first];
-    if (result.defect) return std::move(result.defect);
-    if (!result.is_simple) touching_.push_back(region);
+  for (int i = 0; i < n; ++i) {
+    if (attempts_[i].defect) return std::move(attempts_[i].defect);
+    if (!attempts_[i].is_simple) touching_.push_back(first_taken_ + i);
   }
   return std::nullopt;
+}
+
+std::optional<Defect> RegionRepair::remesh_new(const Mesh& mesh, const RepairOptions& options) {
+  take_new(mesh);
+  return remesh_taken(mesh, options);
 }
 
 std::optional<Defect> RegionRepair::remesh_touching(const Mesh& mesh, const RepairOptions& options) {
@@ -63,38 +74,42 @@ std::optional<Defect> RegionRepair::remesh_touching(const Mesh& mesh, const Repa
 std::optional<Defect> RegionRepair::remesh(const Mesh& mesh, const RepairOptions& options, int region) {
   prepare_new();
   if (regions_.faces(region).empty()) return std::nullopt;  // absorbed
-  auto result = attempt(mesh, options, region);
+  Hole hole;
+  hole.dig(mesh, regions_, region);
+  auto result = attempt(mesh, options, region, hole);
   while (!result.is_simple) {
     if (static_cast<int>(regions_.faces(region).size()) == mesh.n_faces())
       throw std::logic_error("the border of the padded mesh is not convex");
     ++patches_[region].record.retries;
     enlarge(mesh, region);
-    result = attempt(mesh, options, region);
+    hole.dig(mesh, regions_, region);
+    result = attempt(mesh, options, region, hole);
   }
   return std::move(result.defect);
 }
 
-// Reads the region and its mesh only, and writes its patch only.
-RegionRepair::Attempt RegionRepair::attempt(const Mesh& mesh, const RepairOptions& options, int region) {
+// Reads the hole and its mesh only, and writes the region's patch only.
+RegionRepair::Attempt RegionRepair::attempt(const Mesh& mesh, const RepairOptions& options, int region,
+                                            const Hole& hole) {
   auto& worker = workers_.local();
   auto& work = patches_[region];
   const int retries = work.record.retries;
-  worker.hole.dig(mesh, regions_, region);
-  work.record = describe_region(mesh, worker.hole);
+  work.record = describe_region(mesh, hole);
   work.record.retries = retries;
-  if (options.retain && remesh_rest(worker, mesh, options, region)) return {};
-  const auto result = worker.mesher.run(mesh, worker.hole);
+  if (options.retain && remesh_rest(mesh, options, region, hole)) return {};
+  const auto result = worker.mesher.run(mesh, hole);
   if (result == RegionMesher::Result::NotSimple) return {.is_simple = false, .defect = {}};
   if (result == RegionMesher::Result::NoMesh) return {.is_simple = true, .defect = worker.mesher.defect()};
   return {.is_simple = true,
-          .defect = worker.finisher.run(mesh, worker.hole, worker.mesher.new_faces(), options.allow_escaped,
-                                        work.patch)};
+          .defect =
+              worker.finisher.run(mesh, hole, worker.mesher.new_faces(), options.allow_escaped, work.patch)};
 }
 
 // False where not all goes well: then there is more to replace, or a reason that the whole region tells.
-bool RegionRepair::remesh_rest(Worker& worker, const Mesh& mesh, const RepairOptions& options, int region) {
+bool RegionRepair::remesh_rest(const Mesh& mesh, const RepairOptions& options, int region, const Hole& hole) {
+  auto& worker = workers_.local();
   const auto& retention = worker.retention;
-  if (!worker.retention.run(mesh, regions_, region)) return false;
+  if (!worker.retention.run(mesh, hole.faces)) return false;
   worker.rest.dig(mesh, retention.rest(), 0);
   if (worker.mesher.run(mesh, worker.rest) != RegionMesher::Result::Done) return false;
   if (worker.finisher.run(mesh, worker.rest, worker.mesher.new_faces(), options.allow_escaped,

@@ -36,6 +36,11 @@ class RegionRepair {
   // none.
   [[nodiscard]] std::optional<Defect> remesh_new(const Mesh& mesh, const RepairOptions& options);
 
+  // The same in two parts: which regions they are, and the work, which no longer looks at regions(), so that
+  // more can be added meanwhile.
+  void take_new(const Mesh& mesh);
+  [[nodiscard]] std::optional<Defect> remesh_taken(const Mesh& mesh, const RepairOptions& options);
+
   // To be called once all regions are there.
   [[nodiscard]] std::optional<Defect> remesh_touching(const Mesh& mesh, const RepairOptions& options);
 
@@ -50,7 +55,7 @@ class RegionRepair {
  private:
   // What a thread works with.
   struct Worker {
-    Hole hole, rest;
+    Hole rest;
     RegionMesher mesher;
     Finisher finisher;
     Retention retention;
@@ -61,8 +66,8 @@ class RegionRepair {
   };
 
   void prepare_new();
-  Attempt attempt(const Mesh& mesh, const RepairOptions& options, int region);
-  bool remesh_rest(Worker& worker, const Mesh& mesh, const RepairOptions& options, int region);
+  Attempt attempt(const Mesh& mesh, const RepairOptions& options, int region, const Hole& hole);
+  bool remesh_rest(const Mesh& mesh, const RepairOptions& options, int region, const Hole& hole);
   void enlarge(const Mesh& mesh, int region);
   void take(int face, int region);
 
@@ -70,7 +75,9 @@ class RegionRepair {
   tbb::enumerable_thread_specific<Worker> workers_;
   std::vector<RegionPatch> patches_;  // of the first n_prepared_ regions; memory of earlier repairs behind
   int n_prepared_ = 0;
-  std::vector<Attempt> attempts_;  // of the regions last added
+  int first_taken_ = 0;
+  std::vector<Hole> holes_;        // of the regions taken from there on; memory of earlier ones behind
+  std::vector<Attempt> attempts_;  // of the same
   std::vector<int> touching_;      // regions whose border was not simple, ascending
 };
 

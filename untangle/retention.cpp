@@ -110,8 +110,7 @@ class Choice {
 
 }  // namespace
 
-bool Retention::run(const Mesh& mesh, const FaceSets& sets, int set) {
-  const auto& faces = sets.faces(set);
+bool Retention::run(const Mesh& mesh, const std::vector<int>& faces) {
   kept_ = Choice(mesh, faces).kept();
   if (kept_.empty()) return false;
   rest_.reset(mesh.n_faces());

@@ -14,8 +14,8 @@ namespace kinemesh {
 // with signs. Of faces that overlap those in the larger upright component stay. [Agarwal 2008, §6]
 class Retention {
  public:
-  // Chooses among the faces of a set with a simple border. False if none can stay.
-  bool run(const Mesh& mesh, const FaceSets& sets, int set);
+  // Chooses among faces, ascending, with a simple border. False if none can stay.
+  bool run(const Mesh& mesh, const std::vector<int>& faces);
 
   const FaceSets& rest() const { return rest_; }          // set 0: what has to be replaced, ascending
   const std::vector<int>& kept() const { return kept_; }  // the others, ascending
