@@ -18,7 +18,7 @@ for kind in jitter umbilic; do
   kinemesh untangle "$work/$kind.off" -o "$work/out.off" --strategy local --seed "$seed" --report "$work/$kind.json" ||
     (($? == 1))
   kinemesh draw "$work/$kind.off" --region "$work/$kind.json" -o "$work/local_$kind.png"
-  convert "$work/local_$kind.png" -colors 64 PNG8:docs/images/local_$kind.png
+  convert "$work/local_$kind.png" -colors 64 -define png:exclude-chunks=date,time PNG8:docs/images/local_$kind.png
 done
 
 kinemesh run examples/scenarios/airfoil-revolution.toml -o "$work/airfoil" -q

@@ -79,7 +79,8 @@ void print_times(const RunSummary& summary, const RemeshProbe& probe) {
               fmt::format("{} ms, {:.3g} times as long", milliseconds(*remesh_ms), *remesh_ms / step_ms));
 }
 
-void print_summary(const RunSummary& summary, const RemeshProbe& probe) {
+// program: as the user has called it, which need not be on the path.
+void print_summary(const RunSummary& summary, const RemeshProbe& probe, const std::string& program) {
   const std::string planned = summary.plan.is_adaptive ? fmt::format("{} rejected", summary.rejected)
                                                        : fmt::format("of {}", summary.plan.steps);
   print_row("steps", fmt::format("{} {}, to t = {:.6g}", summary.steps, planned, summary.time));
@@ -94,7 +95,7 @@ void print_summary(const RunSummary& summary, const RemeshProbe& probe) {
   print_times(summary, probe);
   fmt::print("files\n");
   for (const auto& file : summary.files) fmt::print("  {}\n", file.string());
-  print_row("to look at it", "kinemesh report " + summary.plan.directory.string());
+  print_row("to look at it", program + " report " + summary.plan.directory.string());
 }
 
 // The resolved scenario holds what --set and --split-quads changed.
@@ -119,7 +120,7 @@ int run_scenario(const RunArguments& arguments) {
     print_plan(scenario, summary.plan);
     return done;
   }
-  if (!arguments.quiet) print_summary(summary, progress.probe());
+  if (!arguments.quiet) print_summary(summary, progress.probe(), options.argv.front());
   if (!summary.stopped) return done;
   std::fflush(stdout);
   print_error(fmt::format("{}: {}{}", arguments.scenario, *summary.stopped, how_to_go_on(summary)));

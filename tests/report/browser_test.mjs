@@ -147,6 +147,22 @@ const tests = {
     assert.deepEqual(complaints, []);
   },
 
+  async "opens where a run has replaced anything, if that is but a part of the mesh"() {
+    const { page } = await open("rotor");
+    const zooms = await page.evaluate(() => {
+      const { player, frames } = window.page, shown = [player.zoom], kept = frames.list[6].patches[0];
+      player.fit(); shown.push(player.zoom);
+      for (const frame of frames.list) frame.patches = [];
+      player.fitToChanges(); shown.push(player.zoom);
+      frames.list[6].patches = [kept];
+      player.fitToChanges(); shown.push(player.zoom);
+      return shown;
+    });
+    assert.equal(zooms[0], zooms[1], "of the rotor all is shown");
+    assert.equal(zooms[1], zooms[2], "nothing replaced");
+    assert(zooms[3] > 1.8 * zooms[2]);
+  },
+
   async "runs without steps, with one, with ten thousand, without meshes; benchmarks"() {
     for (const [name, wanted] of [["none", /No step has been made/], ["one", null], ["many", /The plots show one of every 2 steps/], ["no_meshes", /No meshes to play/], ["series", /Only the meshes written/], ["thinned", /The player has \d+ of \d+ frames/]]) {
       const { page, complaints } = await open(name);

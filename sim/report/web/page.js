@@ -19,7 +19,9 @@ class Page {
     $("notes").textContent = this.notes.join("\n");
     this.startPlots();
     this.listen();
-    if (this.player) this.goTo(this.firstTangled());
+    if (!this.player) return;
+    this.goTo(this.firstTangled());
+    this.player.fitToChanges();
   }
 
   startPlayer() {

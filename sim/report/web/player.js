@@ -202,6 +202,18 @@ class Player {
   // View: centre in units of the grid, zoom in pixels per unit.
   fit() { this.fitTo(this.boxOf((visit) => { for (const v of this.shown) visit(v); })); }
 
+  // To where the run has replaced anything, if that is but a part of the mesh.
+  fitToChanges() {
+    const [x0, y0, x1, y1] = this.boxOf((visit) => {
+      for (const { patches } of this.frames.list)
+        for (const { changes } of patches)
+          for (let i = 4; i < changes.length; i += 7)
+            if (changes[i] !== changes[i + 1]) for (let k = 0; k < 3; ++k) visit(changes[i + k]);
+    });
+    const extent = Math.max(x1 - x0, y1 - y0), margin = 0.1 * extent;
+    if (extent < 0.5) this.fitTo([x0 - margin, y0 - margin, x1 + margin, y1 + margin]);
+  }
+
   fitTo([x0, y0, x1, y1]) {
     const { clientWidth, clientHeight } = this.canvas;
     this.centre = [(x0 + x1) / 2, (y0 + y1) / 2];

@@ -133,7 +133,9 @@ TEST_F(Run, TheLiveLineDoesNotWrap) {
   std::istringstream lines(result.err);
   for (std::string line; std::getline(lines, line, '\r');)
     EXPECT_LE(line.substr(0, line.find('\x1b')).size(), 39u) << line;
-  for (const auto& line : lines_of(result.out)) EXPECT_LE(line.size(), 100u) << line;
+  // The last line names the program as it was called, here by its whole path.
+  for (const auto& line : lines_of(result.out))
+    EXPECT_TRUE(line.size() <= 100 || has(line, " report ")) << line;
 }
 
 TEST_F(Run, DryRunSaysThePlanAndWritesNothing) {
