@@ -54,8 +54,8 @@ table() {
     grep -v "$work" "$work/$name.txt" | tee -a "$results/$name.txt"
     cp "$work/$name/bench.csv" "$results/$name.csv"
     [[ -e "$work/$name/bench_bound.csv" ]] && cp "$work/$name/bench_bound.csv" "$results/${name}_bound.csv"
-    for plot in "$work/$name"/plots/*.svg; do
-      [[ -e "$plot" ]] && cp "$plot" "$images/bench_${name}_$(basename "$plot")"
+    for plot in sweep $([[ $name == noise ]] && echo sizes explored bound); do
+      [[ -e "$work/$name/plots/$plot.svg" ]] && cp "$work/$name/plots/$plot.svg" "$images/bench_${name}_$plot.svg"
     done
   else
     failed+=("table $name")

@@ -35,7 +35,7 @@ struct BenchArguments {
   int threads = 0;
 };
 
-constexpr int most_bound_samples = 500;  // of a step
+constexpr int most_bound_samples = 200;  // of a step
 
 // A field that holds a comma or a quote is quoted.
 std::string csv_field(const std::string& text) {
