@@ -92,6 +92,9 @@ void measure(const Regime& regime, int n) {
               "step {:.4g} ms; of it {:.4g} to measure angles and areas; CGAL alone {:.4g} ms; whole re-mesh "
               "step {:.4g} ms{}",
               step, median(times.measuring), cgal, rebuild, tail)});
+  if (!at_most) return;
+  report({regime.what + ": step / whole step of `remesh`", regime.kind, regime.aim, step / rebuild,
+          fmt::format("step {:.4g} ms; `remesh` {:.4g} ms", step, rebuild)});
 }
 
 }  // namespace
