@@ -34,7 +34,7 @@ struct RegionRecord {
   int grown = 0;               // convex pieces that these added to the shadow
   int retries = 0;             // enlargements the safety net needed; 0 outside freak cases
   bool self_overlap = false;   // the region's border overlaps itself in the plane
-  bool fallback = false;       // of `local`: a piece of the global walk, not the minimum region
+  bool fallback = false;       // of `local` and `kinetic`: replaced as a piece of the global walk
   Point centre{0.0, 0.0};      // of the bounding box of its vertices
 
   int padding_faces() const { return static_cast<int>(faces.size() - user_faces.size()); }
