@@ -19,6 +19,7 @@
 #include "sim/setup.h"
 #include "sim/stop_signal.h"
 #include "sim/threads.h"
+#include "untangle/stuck.h"
 
 namespace kinemesh {
 namespace {
@@ -289,7 +290,9 @@ RunSummary go(const Scenario& scenario, const RunOptions& options, RunObserver& 
 
 std::string why_stopped(const StepOutcome& outcome) {
   const std::string step = "step " + std::to_string(outcome.record.step);
-  if (outcome.defect) return step + " has no valid mesh: " + outcome.defect->message();
+  if (outcome.defect)
+    return step + (is_stuck(*outcome.defect) ? " stays tangled: " : " has no valid mesh: ") +
+           outcome.defect->message();
   return fmt::format("{} at time {} has regions of {:.4g} of all faces, max_region_share is {}", step,
                      outcome.record.time, outcome.too_large->share, outcome.too_large->limit);
 }

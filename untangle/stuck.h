@@ -13,4 +13,9 @@ namespace kinemesh {
 // is of the domain), as the mesh is now, and how many there are. `who` is stuck: "edge flips". Pre: some are.
 Defect stuck_defect(const Mesh& mesh, const Tangles& left, const std::string& who);
 
+// Whether a repair failed for such a reason: a face it could not turn. Then another strategy may find a mesh.
+inline bool is_stuck(const Defect& defect) {
+  return defect.kind == DefectKind::InvertedFace || defect.kind == DefectKind::FlatFace;
+}
+
 }  // namespace kinemesh

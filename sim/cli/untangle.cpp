@@ -13,6 +13,7 @@
 #include "sim/cli/console.h"
 #include "sim/cli/mesh_arguments.h"
 #include "untangle/local.h"
+#include "untangle/stuck.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -79,8 +80,8 @@ void print_summary(const UntangleArguments& arguments, const Mesh& mesh, const R
 }
 
 int no_valid_mesh(const UntangleArguments& arguments, const Defect& defect) {
-  print_error(fmt::format("{}: no valid mesh exists: {}; nothing was written", arguments.mesh.path,
-                          defect.message()));
+  print_error(fmt::format("{}: {}: {}; nothing was written", arguments.mesh.path,
+                          is_stuck(defect) ? "stays tangled" : "no valid mesh exists", defect.message()));
   return not_valid;
 }
 

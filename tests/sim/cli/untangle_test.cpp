@@ -1,5 +1,6 @@
 // `kinemesh untangle`: what is repaired, what stays as it was, and the report.
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -125,6 +126,23 @@ TEST_F(Untangle, RemeshReplacesEverythingAsOneRegion) {
   ASSERT_EQ(json["regions"].size(), 1u);
   ASSERT_EQ(json["regions"][0]["faces"].size(), 72u);
   for (int i = 0; i < 72; ++i) EXPECT_EQ(json["regions"][0]["faces"][i], i);
+}
+
+// Vertex 20 has gone through one edge, 66 through many.
+TEST_F(Untangle, FlipsAndOptimizeUntangleOrSayThatTheyAreStuck) {
+  write("near.off", grid_off(8, {{20, 2.6, 1.3}}));
+  write("far.off", grid_off(8, {{66, 6.4, 1.4}}));
+  EXPECT_EQ(run({"check", "near.off"}).code, 1);
+  EXPECT_EQ(run({"untangle", "near.off", "-o", "out.off", "--strategy", "flips"}).code, 0);
+  EXPECT_EQ(run({"check", "out.off"}).code, 0);
+  expect_error(run({"untangle", "far.off", "-o", "stuck.off", "--strategy", "flips"}), 1,
+               {"far.off: stays tangled: face ", "edge flips are stuck with ", "; nothing was written"});
+  EXPECT_FALSE(std::filesystem::exists(path("stuck.off")));
+  EXPECT_EQ(
+      run({"untangle", "far.off", "-o", "moved.off", "--strategy", "optimize", "--report", "r.json"}).code,
+      0);
+  EXPECT_EQ(run({"check", "moved.off"}).code, 0);
+  EXPECT_TRUE(report()["regions"].empty());
 }
 
 TEST_F(Untangle, LocalRepairsOneRegionAfterTheOther) {
