@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
@@ -15,14 +16,14 @@
 namespace kinemesh {
 namespace {
 
-// By the whole process and not given back.
-std::size_t allocated_bytes() {
+// Not given back yet; without what other threads than the first have taken in small pieces.
+std::int64_t allocated_bytes() {
   const auto info = mallinfo2();
-  return info.uordblks + info.hblkhd;
+  return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-std::size_t bytes_of(const StepRecord& record) {
-  const std::size_t before = allocated_bytes();
+std::int64_t bytes_of(const StepRecord& record) {
+  const std::int64_t before = allocated_bytes();
   const StepRecord copy = record;
   return allocated_bytes() - before;
 }
@@ -36,10 +37,11 @@ class Competitor {
 
   const std::string& strategy() const { return options_.strategy; }
   const Mesh& mesh() const { return stepper_.mesh(); }
-  std::size_t held_bytes() const { return held_bytes_; }
+  // Records that other threads have filled are subtracted but were never added: hence not below 0.
+  std::size_t held_bytes() const { return static_cast<std::size_t>(std::max<std::int64_t>(held_bytes_, 0)); }
 
   StepOutcome step(std::span<const Point> positions, double dt) {
-    const std::size_t before = allocated_bytes();
+    const std::int64_t before = allocated_bytes();
     auto outcome = stepper_.step(positions, dt);
     held_bytes_ += allocated_bytes() - bytes_of(outcome.record) - before;
     if (const auto defect = outcome ? validate(mesh()) : std::nullopt)
@@ -49,14 +51,14 @@ class Competitor {
   }
 
   void follow(const Competitor& other) {
-    const std::size_t before = allocated_bytes();
+    const std::int64_t before = allocated_bytes();
     stepper_ = Stepper(other.mesh(), options_, other.stepper_.time(), other.stepper_.steps_done());
     held_bytes_ += allocated_bytes() - before;
   }
 
  private:
   StepperOptions options_;
-  std::size_t held_bytes_;
+  std::int64_t held_bytes_;
   Stepper stepper_;
 };
 

@@ -18,8 +18,8 @@ struct Round {
   const std::string& strategy;
   const StepRecord& record;
   const Mesh& mesh;
-  std::size_t
-      held_bytes;  // allocated by stepper and strategy, mesh included, and not given back after the step
+  // Allocated by stepper and strategy, mesh included, and not given back after the step; exact on one thread.
+  std::size_t held_bytes;
 };
 
 // A mesh as it was moved, before it is repaired: of the first strategy.
