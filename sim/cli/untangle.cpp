@@ -32,7 +32,14 @@ struct UntangleArguments {
 // What a report compares: the file as it was read and as it was written.
 struct BeforeAndAfter {
   FaceCount before, after;
+  int moved_vertices = 0;
 };
+
+int count_moved(const MeshData& before, const MeshData& after) {
+  int moved = 0;
+  for (std::size_t v = 0; v < before.points.size(); ++v) moved += before.points[v] != after.points[v];
+  return moved;
+}
 
 Json to_json(const RegionRecord& region) {
   return {{"seed", region.seed},
@@ -76,6 +83,8 @@ void print_summary(const UntangleArguments& arguments, const Mesh& mesh, const R
              faces.before.degenerate, faces.after.inverted, faces.after.degenerate);
   fmt::print("{} of {} faces replaced, in {} region{}\n", touched.size(), mesh.n_user_faces(),
              record.regions.size(), record.regions.size() == 1 ? "" : "s");
+  if (faces.moved_vertices > 0)
+    fmt::print("{} of {} vertices moved\n", faces.moved_vertices, mesh.n_user_vertices());
   fmt::print("written: {}\n", arguments.output);
 }
 
@@ -111,7 +120,7 @@ int untangle(const UntangleArguments& arguments) try {
   if (!outcome) return no_valid_mesh(arguments, *outcome.defect);
 
   const MeshData repaired = mesh.domain();
-  const BeforeAndAfter faces{count_bad_faces(data), count_bad_faces(repaired)};
+  const BeforeAndAfter faces{count_bad_faces(data), count_bad_faces(repaired), count_moved(data, repaired)};
   const bool is_valid = faces.after.inverted + faces.after.degenerate == 0;
   if (outcome.record.doubled_edges > 0 && !is_valid) {
     print_note(
@@ -146,8 +155,8 @@ void add_untangle(CLI::App& program, Action& action) {
   command.add_flag("--retain", arguments->retain, "Keep upright faces of a region that need not be replaced");
   command.add_option("--report", arguments->report, "File for what was done, as JSON");
   command.footer(
-      "No vertex moves, none is added or lost, and all keep their order. Faces outside the replaced regions\n"
-      "keep their line in the file; new faces take the lines of those they replace.\n"
+      "No vertex is added or lost, all keep their order, and only optimize moves some. Faces outside the\n"
+      "replaced regions keep their line in the file; new faces take the lines of those they replace.\n"
       "Report: {\"schema\": \"kinemesh-untangle-1\", \"strategy\", \"vertices\", \"faces\", "
       "\"inverted_before\",\n"
       "\"degenerate_before\", \"inverted_after\", \"doubled_edges\", \"regions\": [{\"seed\", \"faces\",\n"
