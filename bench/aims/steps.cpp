@@ -1,53 +1,47 @@
-// A whole step without its move, against CGAL's triangulation of the same points.
+// What a step does after its move, to a fresh mesh, against CGAL's triangulation of the same points.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
 #include "aims.h"
-#include "sim/bench.h"
+#include "core/measure.h"
+#include "core/stopwatch.h"
 #include "sim/threads.h"
+#include "untangle/quality/quality_pass.h"
 
 namespace kinemesh::aims {
 namespace {
 
-constexpr int steps = 5;
+constexpr int repeats = 5;
 
 struct Regime {
   std::string what;
-  std::string motion;  // of [[motion]]
+  std::function<Move(int n)> move;
   std::string strategy = "global";
   std::string quality = "none";
   Aim::Kind kind = Aim::Kind::AtLeast;
   double aim;  // times as fast; at most: times as long
 };
 
+auto jitter(double amplitude) {
+  return [amplitude](int n) { return jitter_of(n, amplitude); };
+}
+
 const Regime regimes[] = {
-    {.what = "rotor",
-     .motion = "field = \"rotor\"\nradius = 0.3\nrate = 0.0174533\ncenter = [0.5, 0.5]",
-     .aim = 100.0},
-    {.what = "jitter 0.01", .motion = "field = \"jitter\"\namplitude = 0.01", .aim = 120.0},
-    {.what = "jitter 0.05", .motion = "field = \"jitter\"\namplitude = 0.05", .aim = 40.0},
-    {.what = "jitter 0.2", .motion = "field = \"jitter\"\namplitude = 0.2", .aim = 6.0},
+    {.what = "rotor", .move = rotor_of, .aim = 100.0},
+    {.what = "jitter 0.01", .move = jitter(0.01), .aim = 120.0},
+    {.what = "jitter 0.05", .move = jitter(0.05), .aim = 40.0},
+    {.what = "jitter 0.2", .move = jitter(0.2), .aim = 6.0},
     {.what = "jitter 1.0 with auto",
-     .motion = "field = \"jitter\"\namplitude = 1.0",
+     .move = jitter(1.0),
      .strategy = "auto",
      .kind = Aim::Kind::AtMost,
      .aim = 1.1},
-    {.what = "jitter 0.01 kept Delaunay",
-     .motion = "field = \"jitter\"\namplitude = 0.01",
-     .quality = "delaunay",
-     .aim = 12.0},
+    {.what = "jitter 0.01 kept Delaunay", .move = jitter(0.01), .quality = "delaunay", .aim = 12.0},
 };
-
-Scenario scenario_of(const Regime& regime, int n) {
-  return parse_scenario(fmt::format("[mesh]\nshape = \"square\"\nvertices = {}\nframe = "
-                                    "0.0\n[[motion]]\n{}\n[time]\ndt = 1.0\nsteps = {}\n"
-                                    "[repair]\nquality = \"{}\"\n",
-                                    n, regime.motion, steps, regime.quality),
-                        regime.what);
-}
 
 // From the smallest number on, and then ascending.
 std::vector<Triangle> sorted_triangles(const Mesh& mesh) {
@@ -57,44 +51,64 @@ std::vector<Triangle> sorted_triangles(const Mesh& mesh) {
   return triangles;
 }
 
-struct Times {
-  std::vector<double> step, measuring, cgal, rebuild;  // ms
-  std::vector<Triangle> ours;  // of a last step that has to have the rebuild's triangles
+// Repairs the same tangles again and again, and does for the mesh what Stepper does afterwards.
+class Contestant {
+ public:
+  Contestant(const std::string& strategy, const std::string& quality, const Move& move)
+      : move_(move), strategy_(make_strategy(strategy)), quality_(make_quality(quality, move.mesh)) {}
+
+  void step() {
+    Mesh mesh = moved(move_);
+    const Stopwatch stepping;
+    const auto outcome = strategy_->repair(mesh, {.before = move_.mesh.positions()});
+    require_valid(outcome);
+    quality_->improve(mesh, move_.mesh.positions(), outcome.record.regions);
+    const Stopwatch measuring;
+    replaced_ = 100.0 * outcome.record.replaced / mesh.n_faces();
+    min_angle_deg_ = kinemesh::measure(mesh).min_angle_deg;
+    measuring_.push_back(measuring.milliseconds());
+    step_.push_back(stepping.milliseconds());
+    triangulating_.push_back(outcome.record.triangulate_ms);
+    require_valid(mesh);
+    if (!(min_angle_deg_ > 0.0)) throw std::logic_error("a valid mesh without angles");
+    triangles_ = sorted_triangles(mesh);
+  }
+
+  double step_ms() const { return median(step_); }
+  double measuring_ms() const { return median(measuring_); }
+  double triangulating_ms() const { return median(triangulating_); }
+  double replaced() const { return replaced_; }  // per cent
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+ private:
+  const Move& move_;
+  std::unique_ptr<Strategy> strategy_;
+  std::unique_ptr<QualityPass> quality_;
+  std::vector<double> step_, measuring_, triangulating_;  // ms
+  double replaced_ = 0.0, min_angle_deg_ = 0.0;
+  std::vector<Triangle> triangles_;  // after the last step
 };
 
-void take(const Round& round, bool compares, Times& times) {
-  const auto& record = round.record;
-  if (!record.accepted) throw std::runtime_error(round.strategy + " found no valid mesh");
-  const double step = record.total_ms - record.move_ms;
-  const bool is_rebuild = round.strategy == "remesh";
-  (is_rebuild ? times.rebuild : times.step).push_back(step);
-  if (!is_rebuild) times.measuring.push_back(record.measure_ms);
-  if (is_rebuild) times.cgal.push_back(record.repair.triangulate_ms);
-  if (!compares || record.step != steps) return;
-  if (!is_rebuild) times.ours = sorted_triangles(round.mesh);
-  if (is_rebuild && times.ours != sorted_triangles(round.mesh))
-    throw std::logic_error("another triangulation than the rebuild's");
-}
-
 void measure(const Regime& regime, int n) {
-  Times times;
-  const std::vector<std::string> strategies{regime.strategy, "remesh"};
-  const bool compares = regime.quality == "delaunay";
-  const auto stopped = compare_strategies(scenario_of(regime, n), strategies,
-                                          [&](const Round& round) { take(round, compares, times); });
-  if (stopped) throw std::runtime_error(*stopped);
-  const double step = median(times.step), cgal = median(times.cgal), rebuild = median(times.rebuild);
-  const bool at_most = regime.kind == Aim::Kind::AtMost;
-  const std::string tail = compares ? "; the same triangles" : "";
-  report({regime.what + (at_most ? ": step / CGAL's rebuild" : ": CGAL's rebuild / step"), regime.kind,
-          regime.aim, at_most ? step / cgal : cgal / step,
-          fmt::format(
-              "step {:.4g} ms; of it {:.4g} to measure angles and areas; CGAL alone {:.4g} ms; whole re-mesh "
-              "step {:.4g} ms{}",
-              step, median(times.measuring), cgal, rebuild, tail)});
-  if (!at_most) return;
-  report({regime.what + ": step / whole step of `remesh`", regime.kind, regime.aim, step / rebuild,
-          fmt::format("step {:.4g} ms; `remesh` {:.4g} ms", step, rebuild)});
+  const Move move = regime.move(n);
+  Contestant ours(regime.strategy, regime.quality, move), rebuild("remesh", "none", move);
+  for (int i = 0; i < repeats; ++i) {
+    ours.step();
+    rebuild.step();
+  }
+  const bool has_to_be_equal = regime.quality == "delaunay";
+  if (has_to_be_equal && ours.triangles() != rebuild.triangles())
+    throw std::logic_error("another triangulation than the rebuild's");
+  const double step = ours.step_ms(), cgal = rebuild.triangulating_ms(), whole = rebuild.step_ms();
+  const auto detail = fmt::format(
+      "{:.3g} % replaced; step {:.4g} ms; of it {:.4g} to measure angles and areas; CGAL alone {:.4g} ms; "
+      "whole "
+      "re-mesh step {:.4g} ms{}",
+      ours.replaced(), step, ours.measuring_ms(), cgal, whole, has_to_be_equal ? "; the same triangles" : "");
+  if (regime.kind == Aim::Kind::AtLeast)
+    return report({regime.what + ": CGAL's rebuild / step", regime.kind, regime.aim, cgal / step, detail});
+  report({regime.what + ": step / CGAL's rebuild", regime.kind, regime.aim, step / cgal, detail});
+  report({regime.what + ": step / whole step of `remesh`", regime.kind, regime.aim, step / whole, detail});
 }
 
 }  // namespace
