@@ -57,9 +57,9 @@ void print_plan(const Scenario& scenario, const RunPlan& plan) {
   print_row("folder", plan.directory.string());
 }
 
-// Three digits, and never an exponent.
+// To the microsecond at most, never an exponent: five characters up to 99,999, so that the phases fit a line.
 std::string milliseconds(double ms) {
-  return ms < 1000.0 ? fmt::format("{:.3g}", ms) : fmt::format("{:.0f}", ms);
+  return fmt::format("{:.{}f}", ms, ms < 10.0 ? 3 : ms < 100.0 ? 2 : ms < 1000.0 ? 1 : 0);
 }
 
 std::string in_phases(const PhaseTimes& ms, int steps) {
