@@ -6,6 +6,7 @@
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -28,6 +29,21 @@ struct PointOf {
   friend value_type get(const PointOf& map, int i) { return {map.points[i].x, map.points[i].y}; }
 };
 using SortTraits = CGAL::Spatial_sort_traits_adapter_2<Kernel, PointOf>;
+
+// Moves with its coordinates, which the sort then has at hand.
+struct NumberedPoint {
+  Kernel::Point_2 point;
+  int number;
+};
+struct PointIn {
+  using key_type = NumberedPoint;
+  using value_type = Kernel::Point_2;
+  using reference = const value_type&;
+  using category = boost::readable_property_map_tag;
+
+  friend reference get(const PointIn&, const NumberedPoint& p) { return p.point; }
+};
+using NumberedSortTraits = CGAL::Spatial_sort_traits_adapter_2<Kernel, PointIn>;
 
 std::vector<int> numbers_to(std::size_t n) {
   std::vector<int> numbers(n);
@@ -72,8 +88,12 @@ std::optional<Contact> Triangulator::triangulate(std::span<const Point> points, 
 }
 
 std::vector<int> hilbert_order(std::span<const Point> points) {
-  auto order = numbers_to(points.size());
-  CGAL::hilbert_sort(order.begin(), order.end(), SortTraits(PointOf{points.data()}));
+  std::vector<NumberedPoint> numbered(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    numbered[i] = {{points[i].x, points[i].y}, static_cast<int>(i)};
+  CGAL::hilbert_sort<CGAL::Parallel_tag>(numbered.begin(), numbered.end(), NumberedSortTraits());
+  std::vector<int> order(points.size());
+  std::transform(numbered.begin(), numbered.end(), order.begin(), [](const auto& p) { return p.number; });
   return order;
 }
 
