@@ -7,6 +7,7 @@
 #include "core/frame.h"
 #include "core/orient.h"
 #include "core/padding.h"
+#include "core/parallel.h"
 #include "core/sides.h"
 #include "core/validate.h"
 
@@ -34,11 +35,15 @@ class MeshBuilder {
 
  private:
   void check_input() const;
+  bool is_proper(int face) const;
+  [[noreturn]] void refuse_face(int face) const;
   void place_vertices();
   void place_faces();
   void embed();
   void add_padding(std::span<const Triangle> padding);
   void connect();
+  std::vector<int> number_halfedges();
+  void link_face(int face);
   void link_border(const std::vector<int>& border);
   void constrain();
   void constrain_edge(int edge, int marker);
@@ -55,14 +60,19 @@ class MeshBuilder {
 
 namespace {
 
-// Counting sort: triangles in the order of their first vertex along the curve; stable.
-std::vector<int> order_by_lowest_vertex(std::span<const Triangle> triangles, int n_vertices) {
-  const auto lowest = [&](int f) { return *std::min_element(triangles[f].begin(), triangles[f].end()); };
-  std::vector<int> start(n_vertices + 1, 0), order(triangles.size());
-  for (int f = 0; f < static_cast<int>(triangles.size()); ++f) ++start[lowest(f) + 1];
+constexpr int grain = 16384;  // vertices or faces that are worth a task
+
+// Counting sort of faces by their lowest vertices; stable.
+std::vector<int> order_by(std::span<const int> lowest, int n_vertices) {
+  std::vector<int> start(n_vertices + 1, 0), order(lowest.size());
+  for (const int v : lowest) ++start[v + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
-  for (int f = 0; f < static_cast<int>(triangles.size()); ++f) order[start[lowest(f)]++] = f;
+  for (int f = 0; f < static_cast<int>(lowest.size()); ++f) order[start[lowest[f]]++] = f;
   return order;
+}
+
+bool is_finite(const Point& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
 std::string name_of(const Edge& edge) {
@@ -77,24 +87,32 @@ void MeshBuilder::check_input() const {
   if (!data_.labels.empty() && data_.labels.size() != data_.triangles.size()) {
     throw InputError("there must be one label per face, or none");
   }
-  for (int v = 0; v < n; ++v) {
-    if (!std::isfinite(data_.points[v].x) || !std::isfinite(data_.points[v].y)) {
-      throw InputError("vertex " + std::to_string(v) + " has a position that is not finite");
-    }
-  }
-  for (int f = 0; f < data_.n_faces(); ++f) {
-    const auto& [a, b, c] = data_.triangles[f];
-    for (const int v : {a, b, c}) {
-      if (v < 0 || v >= n) throw FaceError(f, "no vertex has number " + std::to_string(v));
-    }
-    if (a == b || b == c || c == a) throw FaceError(f, "two corners are the same vertex");
-    if (data_.label(f) == padding_label) throw FaceError(f, "this label is reserved");
-  }
+  const int strange_vertex = find_first(n, grain, [&](int v) { return !is_finite(data_.points[v]); });
+  if (strange_vertex != none)
+    throw InputError("vertex " + std::to_string(strange_vertex) + " has a position that is not finite");
+  const int wrong_face = find_first(data_.n_faces(), grain, [&](int f) { return !is_proper(f); });
+  if (wrong_face != none) refuse_face(wrong_face);
   for (const int v : options_.fixed) {
     if (v < 0 || v >= n) throw InputError("fixed vertex " + std::to_string(v) + " does not exist");
   }
   if (!(options_.frame >= 0.0) || !std::isfinite(options_.frame))
     throw InputError("the frame must be finite, 0 or more");
+}
+
+bool MeshBuilder::is_proper(int face) const {
+  const auto exists = [n = data_.n_vertices()](int v) { return v >= 0 && v < n; };
+  const auto& [a, b, c] = data_.triangles[face];
+  return exists(a) && exists(b) && exists(c) && a != b && b != c && c != a &&
+         data_.label(face) != padding_label;
+}
+
+void MeshBuilder::refuse_face(int face) const {
+  const auto& [a, b, c] = data_.triangles[face];
+  for (const int v : {a, b, c}) {
+    if (v < 0 || v >= data_.n_vertices()) throw FaceError(face, "no vertex has number " + std::to_string(v));
+  }
+  if (a == b || b == c || c == a) throw FaceError(face, "two corners are the same vertex");
+  throw FaceError(face, "this label is reserved");
 }
 
 // The user's vertices and the corners of the frame, along the curve.
@@ -118,11 +136,13 @@ void MeshBuilder::place_vertices() {
   mesh_.vertex_of_user_.resize(n);
   mesh_.positions_.resize(n);
   mesh_.user_vertex_.resize(n);
-  for (int v = 0; v < n; ++v) {
-    mesh_.positions_[v] = points[order[v]];
-    mesh_.user_vertex_[v] = order[v] < data_.n_vertices() ? order[v] : none;
-    mesh_.vertex_of_user_[order[v]] = v;
-  }
+  parallel_parts(n, grain, [&](int, int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      mesh_.positions_[v] = points[order[v]];
+      mesh_.user_vertex_[v] = order[v] < data_.n_vertices() ? order[v] : none;
+      mesh_.vertex_of_user_[order[v]] = v;
+    }
+  });
   mesh_.frame_.assign(mesh_.vertex_of_user_.begin() + data_.n_vertices(), mesh_.vertex_of_user_.end());
   mesh_.vertex_of_user_.resize(data_.n_vertices());
   mesh_.fixed_.assign(n, false);
@@ -130,18 +150,25 @@ void MeshBuilder::place_vertices() {
 }
 
 void MeshBuilder::place_faces() {
-  auto triangles = data_.triangles;
-  for (auto& t : triangles) {
-    for (int& v : t) v = mesh_.vertex_of_user_[v];
-  }
-  mesh_.n_user_faces_ = data_.n_faces();
-  mesh_.user_face_ = order_by_lowest_vertex(triangles, mesh_.n_vertices());
-  mesh_.triangles_.reserve(triangles.size());
-  mesh_.labels_.reserve(triangles.size());
-  for (const int f : mesh_.user_face_) {
-    mesh_.triangles_.push_back(triangles[f]);
-    mesh_.labels_.push_back(data_.label(f));
-  }
+  const int n = data_.n_faces();
+  const auto renumbered = [&](int user_face) {
+    const auto& [a, b, c] = data_.triangles[user_face];
+    return Triangle{mesh_.vertex_of_user_[a], mesh_.vertex_of_user_[b], mesh_.vertex_of_user_[c]};
+  };
+  std::vector<int> lowest(n);
+  parallel_parts(n, grain, [&](int, int begin, int end) {
+    for (int f = begin; f < end; ++f) lowest[f] = std::ranges::min(renumbered(f));
+  });
+  mesh_.n_user_faces_ = n;
+  mesh_.user_face_ = order_by(lowest, mesh_.n_vertices());
+  mesh_.triangles_.resize(n);
+  mesh_.labels_.resize(n);
+  parallel_parts(n, grain, [&](int, int begin, int end) {
+    for (int f = begin; f < end; ++f) {
+      mesh_.triangles_[f] = renumbered(mesh_.user_face_[f]);
+      mesh_.labels_[f] = data_.label(mesh_.user_face_[f]);
+    }
+  });
 }
 
 void MeshBuilder::embed() {
@@ -194,14 +221,30 @@ void MeshBuilder::add_padding(std::span<const Triangle> padding) {
 }
 
 void MeshBuilder::connect() {
-  auto& topology = mesh_.topology_;
   const int n_sides = 3 * mesh_.n_faces();
   const auto n_hull = std::count(opposite_.begin(), opposite_.end(), none);
-  topology.resize(mesh_.n_vertices(), (n_sides + n_hull) / 2, mesh_.n_faces());
-  halfedge_.assign(n_sides, none);
+  const auto n_edges = (n_sides + n_hull) / 2;
   std::vector<int> hull;
+  parallel_pair([&] { mesh_.topology_.resize(mesh_.n_vertices(), n_edges, mesh_.n_faces()); },
+                [&] { hull = number_halfedges(); });
+  parallel_parts(mesh_.n_faces(), grain, [&](int, int begin, int end) {
+    for (int f = begin; f < end; ++f) link_face(f);
+  });
+  for (int s = 0; s < n_sides; ++s)
+    mesh_.topology_.set_halfedge_handle(VertexHandle(ends_of_side(mesh_.triangles_, s)[0]),
+                                        HalfedgeHandle(halfedge_[s]));
+  link_border(hull);
+  opposite_ = std::vector<int>();
+  halfedge_ = std::vector<int>();
+  mesh_.edge_constraint_.assign(n_edges, none);
+}
+
+// Along each side, in pairs; returns the sides that nothing lies across.
+std::vector<int> MeshBuilder::number_halfedges() {
+  std::vector<int> hull;
+  halfedge_.assign(opposite_.size(), none);
   int n_edges = 0;
-  for (int s = 0; s < n_sides; ++s) {
+  for (int s = 0; s < static_cast<int>(opposite_.size()); ++s) {
     if (halfedge_[s] != none) continue;
     halfedge_[s] = 2 * n_edges++;
     if (opposite_[s] != none)
@@ -209,19 +252,18 @@ void MeshBuilder::connect() {
     else
       hull.push_back(s);
   }
-  for (int s = 0; s < n_sides; ++s) {
-    const HalfedgeHandle side(halfedge_[s]);
-    const auto [a, b] = ends_of_side(mesh_.triangles_, s);
-    topology.set_face_handle(side, FaceHandle(s / 3));
-    topology.set_vertex_handle(side, VertexHandle(b));
-    topology.set_next_halfedge_handle(side, HalfedgeHandle(halfedge_[s - s % 3 + (s + 1) % 3]));
-    topology.set_halfedge_handle(VertexHandle(a), side);
-    if (s % 3 == 0) topology.set_halfedge_handle(FaceHandle(s / 3), side);
+  return hull;
+}
+
+void MeshBuilder::link_face(int face) {
+  auto& topology = mesh_.topology_;
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeHandle side(halfedge_[3 * face + k]);
+    topology.set_face_handle(side, FaceHandle(face));
+    topology.set_vertex_handle(side, VertexHandle(mesh_.triangles_[face][(k + 1) % 3]));
+    topology.set_next_halfedge_handle(side, HalfedgeHandle(halfedge_[3 * face + (k + 1) % 3]));
   }
-  link_border(hull);
-  opposite_ = std::vector<int>();
-  halfedge_ = std::vector<int>();
-  mesh_.edge_constraint_.assign(n_edges, none);
+  topology.set_halfedge_handle(FaceHandle(face), HalfedgeHandle(halfedge_[3 * face]));
 }
 
 // The outer half-edges, one loop around the whole.

@@ -1,7 +1,6 @@
 #include "core/orient.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -247,18 +246,12 @@ bool is_surely_upright(const Point& a, const Point& b, const Point& c) {
 }
 
 bool has_upright_faces(const MeshData& data) {
-  const auto n = static_cast<unsigned>(data.n_vertices());
-  const auto is_upright = [&](const Triangle& t) {
-    const bool exist =
-        static_cast<unsigned>(t[0]) < n && static_cast<unsigned>(t[1]) < n && static_cast<unsigned>(t[2]) < n;
-    return exist && is_surely_upright(data.points[t[0]], data.points[t[1]], data.points[t[2]]);
-  };
-  std::atomic<bool> upright{true};
-  parallel_parts(data.n_faces(), grain, [&](int, int begin, int end) {
-    const auto faces = data.triangles.begin();
-    if (!std::all_of(faces + begin, faces + end, is_upright)) upright = false;
-  });
-  return upright;
+  const auto exists = [&](int v) { return v >= 0 && v < data.n_vertices(); };
+  return find_first(data.n_faces(), grain, [&](int face) {
+           const auto& [a, b, c] = data.triangles[face];
+           const bool exist = exists(a) && exists(b) && exists(c);
+           return !exist || !is_surely_upright(data.points[a], data.points[b], data.points[c]);
+         }) == none;
 }
 
 // What nearly all files hold: faces that are upright one by one, so that no two have the same vertices and no

@@ -5,8 +5,11 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
+
+#include "core/types.h"
 
 namespace kinemesh {
 
@@ -33,6 +36,20 @@ void parallel_parts(int n, int grain, const Body& body) {
     done.fetch_add(1, std::memory_order_release);
   });
   done.load(std::memory_order_acquire);
+}
+
+// The lowest i from 0 and below n with is_wanted(i), or none, whatever the number of threads.
+template <class Predicate>
+int find_first(int n, int grain, const Predicate& is_wanted) {
+  std::array<int, most_parts> found;
+  found.fill(none);
+  parallel_parts(n, grain, [&](int part, int begin, int end) {
+    int i = begin;
+    while (i < end && !is_wanted(i)) ++i;
+    if (i < end) found[part] = i;
+  });
+  const auto first = std::find_if(found.begin(), found.end(), [](int i) { return i != none; });
+  return first == found.end() ? none : *first;
 }
 
 // Calls both, at the same time where there are threads. Neither may write what the other reads.

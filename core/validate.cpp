@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "core/parallel.h"
 #include "core/predicates.h"
 
 namespace kinemesh {
@@ -21,6 +23,15 @@ std::string number(int i) {
   return std::to_string(i);
 }
 
+constexpr int grain = 16384;  // things to look at that are worth a task
+
+// What `check` finds first among n things.
+template <class Check>
+Found first_among(int n, const Check& check) {
+  const int first = find_first(n, grain, [&](int i) { return check(i).has_value(); });
+  return first == none ? std::nullopt : check(first);
+}
+
 Found check_face(const Mesh& mesh, int f) {
   const auto sides = mesh.sides(f);
   for (int k = 0; k < 3; ++k) {
@@ -33,58 +44,69 @@ Found check_face(const Mesh& mesh, int f) {
 }
 
 Found check_faces(const Mesh& mesh) {
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    if (auto defect = check_face(mesh, f)) return defect;
-  }
-  return std::nullopt;
+  return first_among(mesh.n_faces(), [&](int f) { return check_face(mesh, f); });
 }
 
-// The half-edges that leave each vertex form one cycle.
+// The half-edges that leave a vertex form one cycle.
+Found check_fan(const Mesh& mesh, int v, int degree) {
+  if (mesh.is_isolated(v)) return std::nullopt;
+  const int first = mesh.outgoing(v);
+  int h = first, seen = 0;
+  do {
+    if (mesh.from(h) != v)
+      return broken("a half-edge has strayed from vertex " + number(mesh.user_vertex(v)));
+    h = mesh.next(Mesh::opposite(h));
+    ++seen;
+  } while (h != first && seen <= degree);
+  if (seen == degree) return std::nullopt;
+  return Defect{
+      .kind = DefectKind::NotPlanar,
+      .detail = "the faces around vertex " + number(mesh.user_vertex(v)) + " form more than one fan"};
+}
+
 Found check_fans(const Mesh& mesh) {
   std::vector<int> degree(mesh.n_vertices(), 0);
   for (int h = 0; h < 2 * mesh.n_edges(); ++h) ++degree[mesh.from(h)];
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
-    if (mesh.is_isolated(v)) continue;
-    const int first = mesh.outgoing(v);
-    int h = first, seen = 0;
-    do {
-      if (mesh.from(h) != v)
-        return broken("a half-edge has strayed from vertex " + number(mesh.user_vertex(v)));
-      h = mesh.next(Mesh::opposite(h));
-      ++seen;
-    } while (h != first && seen <= degree[v]);
-    if (seen == degree[v]) continue;
-    return Defect{
-        .kind = DefectKind::NotPlanar,
-        .detail = "the faces around vertex " + number(mesh.user_vertex(v)) + " form more than one fan"};
-  }
-  return std::nullopt;
+  return first_among(mesh.n_vertices(), [&](int v) { return check_fan(mesh, v, degree[v]); });
 }
 
-int count_connected_faces(const Mesh& mesh) {
-  std::vector<bool> seen(mesh.n_faces(), false);
-  std::vector<int> pending{0};
-  seen[0] = true;
-  int count = 0;
-  while (!pending.empty()) {
-    const int f = pending.back();
-    pending.pop_back();
-    ++count;
-    for (const int h : mesh.sides(f)) {
-      const int g = mesh.face_of(Mesh::opposite(h));
-      if (g == none || seen[g]) continue;
-      seen[g] = true;
-      pending.push_back(g);
-    }
+// Sets of faces that are joined across edges; the face of the lowest number stands for its set.
+class Parts {
+ public:
+  explicit Parts(int n_faces) : count_(n_faces), parent_(n_faces) {
+    std::iota(parent_.begin(), parent_.end(), 0);
   }
-  return count;
+  int count() const { return count_; }
+  void join(int f, int g) {
+    const auto [low, high] = std::minmax({representative(f), representative(g)});
+    if (low == high) return;
+    parent_[high] = low;
+    --count_;
+  }
+
+ private:
+  int representative(int f) {
+    while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
+    return f;
+  }
+
+  int count_;
+  std::vector<int> parent_;
+};
+
+bool is_connected(const Mesh& mesh) {
+  Parts parts(mesh.n_faces());
+  for (int e = 0; e < mesh.n_edges(); ++e) {
+    const int f = mesh.face_of(2 * e), g = mesh.face_of(2 * e + 1);
+    if (f != none && g != none) parts.join(f, g);
+  }
+  return parts.count() == 1;
 }
 
 // Connected, one border loop, Euler characteristic 1.
 Found check_disc(const Mesh& mesh) {
-  if (count_connected_faces(mesh) != mesh.n_faces()) {
+  if (!is_connected(mesh))
     return Defect{.kind = DefectKind::NotPlanar, .detail = "the padded mesh is not connected"};
-  }
   int vertices = 0, outer = 0;
   for (int v = 0; v < mesh.n_vertices(); ++v) vertices += !mesh.is_isolated(v);
   for (int h = 0; h < 2 * mesh.n_edges(); ++h) outer += mesh.face_of(h) == none;
@@ -143,26 +165,24 @@ Found check_constraints(const Mesh& mesh) {
 }
 
 Found check_finite(const Mesh& mesh) {
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  return first_among(mesh.n_vertices(), [&](int v) -> Found {
     const Point& p = mesh.position(v);
-    if (std::isfinite(p.x) && std::isfinite(p.y)) continue;
+    if (std::isfinite(p.x) && std::isfinite(p.y)) return std::nullopt;
     return Defect{.kind = DefectKind::NonFinitePosition, .vertices = {mesh.user_vertex(v)}};
-  }
-  return std::nullopt;
+  });
 }
 
 Found check_upright(const Mesh& mesh) {
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  return first_among(mesh.n_faces(), [&](int f) -> Found {
     const auto [a, b, c] = mesh.corners(f);
     const auto turn = orientation(a, b, c);
-    if (turn == Orientation::CounterClockwise) continue;
+    if (turn == Orientation::CounterClockwise) return std::nullopt;
     const auto& t = mesh.triangles()[f];
     return Defect{.kind = turn == Orientation::Collinear ? DefectKind::FlatFace : DefectKind::InvertedFace,
                   .vertices = {mesh.user_vertex(t[0]), mesh.user_vertex(t[1]), mesh.user_vertex(t[2])},
                   .faces = {mesh.user_face(f)},
                   .where = a};
-  }
-  return std::nullopt;
+  });
 }
 
 // Turns left everywhere and goes around once: the sense along x changes twice.
@@ -229,7 +249,13 @@ Found first_of(const Mesh& mesh, Checks... checks) {
 }  // namespace
 
 std::optional<Defect> validate_connectivity(const Mesh& mesh) {
-  return first_of(mesh, check_faces, check_fans, check_disc, check_numbering, check_constraints);
+  Found first, disc, last;
+  parallel_pair([&] { disc = check_disc(mesh); },
+                [&] {
+                  first = first_of(mesh, check_faces, check_fans);
+                  if (!first) last = first_of(mesh, check_numbering, check_constraints);
+                });
+  return first ? first : disc ? disc : last;
 }
 
 std::optional<Defect> validate(const Mesh& mesh) {
