@@ -37,6 +37,7 @@ class MeshBuilder {
   void check_input() const;
   bool is_proper(int face) const;
   [[noreturn]] void refuse_face(int face) const;
+  std::array<Point, 4> frame_corners() const;
   void place_vertices();
   void place_faces();
   void embed();
@@ -115,20 +116,26 @@ void MeshBuilder::refuse_face(int face) const {
   throw FaceError(face, "this label is reserved");
 }
 
+std::array<Point, 4> MeshBuilder::frame_corners() const {
+  std::vector<Point> used;
+  for (const auto& t : data_.triangles) {
+    for (const int v : t) used.push_back(data_.points[v]);
+  }
+  const auto corners = frame_around(used, options_.frame);
+  if (!is_finite(corners[0]) || !is_finite(corners[2]))
+    throw InputError("the frame's corners are not finite, a smaller frame or smaller coordinates expected");
+  return corners;
+}
+
 // The user's vertices and the corners of the frame, along the curve.
 void MeshBuilder::place_vertices() {
-  auto points = data_.points;
+  std::vector<Point> framed;
   if (options_.frame > 0.0) {
-    std::vector<Point> used;
-    for (const auto& t : data_.triangles) {
-      for (const int v : t) used.push_back(points[v]);
-    }
-    const auto corners = frame_around(used, options_.frame);
-    if (!std::isfinite(corners[0].x) || !std::isfinite(corners[0].y) || !std::isfinite(corners[2].x) ||
-        !std::isfinite(corners[2].y))
-      throw InputError("the frame's corners are not finite, a smaller frame or smaller coordinates expected");
-    points.insert(points.end(), corners.begin(), corners.end());
+    const auto corners = frame_corners();
+    framed = data_.points;
+    framed.insert(framed.end(), corners.begin(), corners.end());
   }
+  const std::span<const Point> points = framed.empty() ? data_.points : framed;
   const auto order = hilbert_order(points);
   const int n = static_cast<int>(points.size());
   mesh_.n_user_vertices_ = data_.n_vertices();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
+#include <stdexcept>
 
 #include "core/io/scanner.h"
 #include "core/orient.h"
@@ -47,6 +49,13 @@ void Assembler::add_triangle(const Triangle& corners, int line, int label) {
   mesh_.triangles.push_back(corners);
   face_line_.push_back(line);
   if (label != 0 || !mesh_.labels.empty()) mesh_.labels.push_back(label);
+}
+
+void Assembler::add_triangles(std::vector<Triangle> triangles, int first_line) {
+  if (!mesh_.triangles.empty()) throw std::logic_error("triangles before those of the whole file");
+  mesh_.triangles = std::move(triangles);
+  face_line_.resize(mesh_.triangles.size());
+  std::iota(face_line_.begin(), face_line_.end(), first_line);
 }
 
 void Assembler::add_quad(const std::array<int, 4>& c, int line, int label) {

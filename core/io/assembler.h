@@ -18,6 +18,8 @@ class Assembler {
 
   // Vertex numbers are checked in finish(), `line` is named if they or the face turn out wrong; 0: no line.
   void add_triangle(const Triangle& corners, int line, int label = 0);
+  // All of a file, one to a line. Pre: none has been added.
+  void add_triangles(std::vector<Triangle> triangles, int first_line);
   void add_quad(const std::array<int, 4>& corners, int line,
                 int label = 0);                              // refused unless they are to be split
   void add_face(const std::vector<int>& corners, int line);  // refuses any but 3 or 4 corners

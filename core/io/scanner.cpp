@@ -8,8 +8,12 @@
 namespace kinemesh::io {
 namespace {
 
+// The comparison first that nearly all characters pass.
 bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  return c <= ' ' && (c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f');
+}
+bool ends_word(char c) {
+  return is_blank(c) || c == '\n';
 }
 
 // from_chars takes no plus sign, and none may hide a second sign.
@@ -100,8 +104,18 @@ void Scanner::skip_blanks() {
 
 std::string_view Scanner::take_word() {
   const char* begin = at_;
-  while (at_ != end_ && !is_blank(*at_) && *at_ != '\n') ++at_;
+  while (at_ != end_ && !ends_word(*at_)) ++at_;
   return {begin, static_cast<std::size_t>(at_ - begin)};
+}
+
+// A number as nearly all are, the whole next word, finite and in range. Otherwise nothing is taken.
+template <class Number>
+bool Scanner::take_plain(Number& value) {
+  if (at_end()) return false;
+  const auto [end, error] = std::from_chars(at_, end_, value);
+  if (error != std::errc() || !std::isfinite(value) || (end != end_ && !ends_word(*end))) return false;
+  at_ = end;
+  return true;
 }
 
 bool Scanner::at_end() {
@@ -125,6 +139,7 @@ std::string_view Scanner::word(const char* what) {
 }
 
 double Scanner::number(const char* what) {
+  if (double value; take_plain(value)) return value;
   const std::string_view digits = word(what);
   try {
     return to_number(digits, what);
@@ -134,6 +149,7 @@ double Scanner::number(const char* what) {
 }
 
 long long Scanner::long_integer(const char* what) {
+  if (long long value; take_plain(value)) return value;
   const std::string_view digits = word(what);
   try {
     return to_integer(digits, what);
@@ -143,6 +159,7 @@ long long Scanner::long_integer(const char* what) {
 }
 
 int Scanner::integer(const char* what) {
+  if (int plain; take_plain(plain)) return plain;
   const long long value = long_integer(what);
   if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max()) {
     fail("'" + std::to_string(value) + "' is out of range, expected " + what);
@@ -192,6 +209,29 @@ void Scanner::expect_line_end(const char* what) {
 
 void Scanner::skip_line() {
   at_ = std::find(at_, end_, '\n');
+}
+
+bool Scanner::next_line() {
+  skip_line();
+  if (at_ == end_) return false;
+  ++at_;
+  ++line_;
+  return true;
+}
+
+Scanner Scanner::within(std::string_view text, int lines_down) const {
+  Scanner part = *this;
+  part.at_ = text.data();
+  part.end_ = text.data() + text.size();
+  part.line_ += lines_down;
+  return part;
+}
+
+Scanner Scanner::at_end_of(std::string_view lines, int n) const {
+  Scanner result = *this;
+  result.at_ = lines.data() + lines.size() - lines.ends_with('\n');
+  result.line_ += n - 1;
+  return result;
 }
 
 std::string_view Scanner::rest_of_line() {

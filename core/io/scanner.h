@@ -40,11 +40,21 @@ class Scanner {
   void expect_line_end(const char* what);  // refuses what is left in it
   void skip_line();                        // drops what is left in it
   std::string_view rest_of_line();         // trimmed, without comment
+  bool next_line();                        // goes behind the end of this one; false if it has none
+
+  // Parts of what is left (core/io/pieces.h).
+  std::string_view rest() const { return {at_, bytes_left()}; }
+  Scanner within(std::string_view text,
+                 int lines_down) const;  // reads `text` only, so many lines further down
+  Scanner at_end_of(std::string_view lines,
+                    int n) const;  // behind n lines from here, before the end of the last
 
  private:
   void skip_blanks();
   bool is_comment() const { return comment_ != 0 && *at_ == comment_; }
   std::string_view take_word();
+  template <class Number>
+  bool take_plain(Number& value);
 
   const char* at_;
   const char* end_;

@@ -9,6 +9,7 @@ set(KINEMESH_IO_SOURCES
   io/mesh_io.cpp
   io/obj.cpp
   io/off.cpp
+  io/pieces.cpp
   io/ply.cpp
   io/pvd_read.cpp
   io/scanner.cpp

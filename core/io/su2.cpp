@@ -3,6 +3,7 @@
 
 #include "core/io/assembler.h"
 #include "core/io/codecs.h"
+#include "core/io/pieces.h"
 #include "core/io/scanner.h"
 #include "core/io/text_buffer.h"
 
@@ -108,7 +109,21 @@ class Su2Reader {
   void read_elements() {
     only_once(has_elements_);
     const int n = count_value(8);
+    if (read_triangles(n)) return;
     for (int i = 0; i < n; ++i) read_element();
+  }
+  // All of them, where nothing but triangles is there, one to a line.
+  bool read_triangles(int n) {
+    const int line = scanner_.line();
+    std::vector<Triangle> triangles(n);
+    const auto read = [&](Scanner& scanner, int i) {
+      if (scanner.integer("a type") != triangle_type) scanner.fail("no triangle");
+      for (int& v : triangles[i]) v = scanner.integer_here("vertex number");
+      skip_numbers(scanner, "an element");
+    };
+    if (!read_lines(scanner_, n, read)) return false;
+    mesh_.add_triangles(std::move(triangles), line + 1);
+    return true;
   }
   void read_element() {
     const int type = scanner_.integer("type of an element");
@@ -120,7 +135,7 @@ class Su2Reader {
     } else {
       refuse_type(type, "triangles (5)");
     }
-    skip_numbers("an element");
+    skip_numbers(scanner_, "an element");
   }
   int vertex() { return scanner_.integer_here("vertex number"); }
   [[noreturn]] void refuse_type(int type, const char* expected) const {
@@ -132,13 +147,15 @@ class Su2Reader {
   void read_points() {
     only_once(has_points_);
     const int n = count_value(4);
-    mesh_.mesh().points.reserve(n);
-    for (int i = 0; i < n; ++i) {
-      const double x = scanner_.number("x of a point");
-      const double y = scanner_.number_here("y of a point");
-      mesh_.add_point(x, y, 0.0, scanner_.line());
-      skip_numbers("a point");
-    }
+    auto& points = mesh_.mesh().points;
+    points.resize(n);
+    const auto read = [&](Scanner& scanner, int i) {
+      points[i].x = scanner.number("x of a point");
+      points[i].y = scanner.number_here("y of a point");
+      skip_numbers(scanner, "a point");
+    };
+    if (read_lines(scanner_, n, read)) return;
+    for (int i = 0; i < n; ++i) read(scanner_, i);
   }
 
   void read_marker() {
@@ -162,7 +179,7 @@ class Su2Reader {
       const int type = scanner_.integer("type of a marker's element");
       if (type != line_type) refuse_type(type, "lines (3)");
       mesh_.add_marker_edge(marker, {vertex(), vertex()}, scanner_.line());
-      skip_numbers("a line");
+      skip_numbers(scanner_, "a line");
     }
   }
   void skip_halo(int n) {
@@ -184,10 +201,10 @@ class Su2Reader {
   }
 
   // Elements and points may carry their numbers, which say nothing: their order counts.
-  void skip_numbers(const char* what) {
-    for (int i = 0; i < 2 && !scanner_.at_line_end(); ++i)
-      scanner_.long_integer("number of the point or element");
-    scanner_.expect_line_end(what);
+  static void skip_numbers(Scanner& scanner, const char* what) {
+    for (int i = 0; i < 2 && !scanner.at_line_end(); ++i)
+      scanner.long_integer("number of the point or element");
+    scanner.expect_line_end(what);
   }
 
   void only_once(bool& seen) {

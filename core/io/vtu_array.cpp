@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/io/pieces.h"
 #include "core/io/scanner.h"
 
 namespace kinemesh::io {
@@ -194,6 +195,16 @@ bool VtuArrays::is_integer(const pugi::xml_node& array) {
   return integer_converter(attribute(array, "type")) != nullptr;
 }
 
+template <class Number, class Read>
+std::vector<Number> VtuArrays::ascii(const pugi::xml_node& array, const Read& read) const {
+  const std::string_view text = array.child_value();
+  if (auto numbers = read_numbers<Number>(Scanner(text, file_), read)) return std::move(*numbers);
+  std::vector<Number> numbers;
+  Scanner scanner(text, file_, 0, line_of(array.first_child()));
+  while (!scanner.at_end()) numbers.push_back(read(scanner));
+  return numbers;
+}
+
 std::vector<double> VtuArrays::reals(const pugi::xml_node& array) const {
   const auto type = attribute(array, "type");
   if (type != "Float32" && type != "Float64") {
@@ -201,9 +212,7 @@ std::vector<double> VtuArrays::reals(const pugi::xml_node& array) const {
   }
   std::vector<double> values;
   if (attribute(array, "format", "ascii") == "ascii") {
-    Scanner scanner(array.child_value(), file_, 0, line_of(array.first_child()));
-    while (!scanner.at_end()) values.push_back(scanner.number("coordinate"));
-    return values;
+    return ascii<double>(array, [](Scanner& scanner) { return scanner.number("coordinate"); });
   }
   try {
     values = type == "Float32" ? convert<float, double>(bytes(array)) : convert<double, double>(bytes(array));
@@ -223,10 +232,7 @@ std::vector<long long> VtuArrays::integers(const pugi::xml_node& array) const {
          name_of(array) + " is of type " + in_quotes(attribute(array, "type")) + ", expected whole numbers");
   }
   if (attribute(array, "format", "ascii") == "ascii") {
-    std::vector<long long> values;
-    Scanner scanner(array.child_value(), file_, 0, line_of(array.first_child()));
-    while (!scanner.at_end()) values.push_back(scanner.long_integer("whole number"));
-    return values;
+    return ascii<long long>(array, [](Scanner& scanner) { return scanner.long_integer("whole number"); });
   }
   try {
     return converter(bytes(array));

@@ -26,6 +26,8 @@ class VtuArrays {
   [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what) const;
 
  private:
+  template <class Number, class Read>
+  std::vector<Number> ascii(const pugi::xml_node& array, const Read& read) const;
   std::string bytes(const pugi::xml_node& array) const;
   std::string appended_bytes(const pugi::xml_node& array) const;
   std::string block(std::string_view encoded, bool is_base64) const;

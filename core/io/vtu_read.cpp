@@ -15,13 +15,16 @@ enum CellType { vertex_cell = 1, line_cell = 3, triangle_cell = 5, quad_cell = 9
 
 // VTK's appended raw data makes a file no XML: it is cut out here, and the rest parsed.
 struct Parts {
-  std::string xml;
-  std::string_view appended;  // from behind the underscore; reaches beyond its end, blocks know their size
+  std::string_view whole;
+  std::string without_appended;  // empty where nothing is appended
+  std::string_view appended;     // from behind the underscore; reaches beyond its end, blocks know their size
+
+  std::string_view xml() const { return without_appended.empty() ? whole : without_appended; }
 };
 
 Parts take_apart(std::string_view text, const std::string& file) {
   const std::size_t tag = text.find("<AppendedData");
-  if (tag == std::string_view::npos) return {std::string(text), {}};
+  if (tag == std::string_view::npos) return {text, {}, {}};
   const std::size_t tag_end = text.find('>', tag);
   const std::size_t underscore = text.find_first_not_of(" \t\r\n", std::min(tag_end, text.size() - 1) + 1);
   if (underscore == std::string_view::npos || text[underscore] != '_') {
@@ -32,7 +35,8 @@ Parts take_apart(std::string_view text, const std::string& file) {
   if (!text.substr(0, last + 1).ends_with(end))
     throw InputError(file, 0, "the file ends, expected </VTKFile>");
   std::string xml(text.substr(0, tag_end + 1));
-  return {xml + "</AppendedData></VTKFile>", text.substr(underscore + 1, last + 1 - end.size() - underscore)};
+  return {text, xml + "</AppendedData></VTKFile>",
+          text.substr(underscore + 1, last + 1 - end.size() - underscore)};
 }
 
 class VtuReader {
@@ -211,18 +215,19 @@ class VtuReader {
 
 ReadResult read_vtu(std::string_view text, const std::string& file, const ReadOptions& options) {
   const Parts parts = take_apart(text, file);
+  const std::string_view xml = parts.xml();
   pugi::xml_document document;
   // Without a given encoding a zero byte makes it UTF-16, and all offsets refer to a converted text.
   const pugi::xml_parse_result parsed =
-      document.load_buffer(parts.xml.data(), parts.xml.size(), pugi::parse_default, pugi::encoding_utf8);
+      document.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!parsed) {
-    const auto before = parts.xml.begin() + std::min<std::ptrdiff_t>(parsed.offset, std::ssize(parts.xml));
-    const int line = 1 + static_cast<int>(std::count(parts.xml.begin(), before, '\n'));
+    const auto before = xml.begin() + std::min<std::ptrdiff_t>(parsed.offset, std::ssize(xml));
+    const int line = 1 + static_cast<int>(std::count(xml.begin(), before, '\n'));
     throw InputError(file, line, std::string("not well-formed XML: ") + parsed.description());
   }
   const pugi::xml_node root = document.child("VTKFile");
   if (!root) throw InputError(file, 0, "no element VTKFile");
-  const VtuArrays arrays(file, parts.xml, root, parts.appended);
+  const VtuArrays arrays(file, xml, root, parts.appended);
   return VtuReader(file, options, arrays, root).read();
 }
 
