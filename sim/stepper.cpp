@@ -101,7 +101,7 @@ void require_forward(double dt) {
 
 }  // namespace
 
-Stepper::Stepper(Mesh mesh, const StepperOptions& options, double time, int steps_done)
+Stepper::Stepper(Mesh&& mesh, const StepperOptions& options, double time, int steps_done)
     : mesh_(std::move(mesh)),
       strategy_(make_strategy(options.strategy)),
       quality_(make_quality(options.quality, mesh_)),

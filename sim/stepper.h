@@ -69,8 +69,12 @@ struct StepOutcome {
 class Stepper {
  public:
   // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy or quality.
-  // time, steps_done: of an earlier stepper whose work this one goes on with.
-  explicit Stepper(Mesh mesh, const StepperOptions& options = {}, double time = 0.0, int steps_done = 0);
+  // time, steps_done: of an earlier stepper whose work this one goes on with. The first takes the mesh's memory
+  // where it can.
+  explicit Stepper(Mesh&& mesh, const StepperOptions& options = {}, double time = 0.0, int steps_done = 0);
+  explicit Stepper(const Mesh& mesh, const StepperOptions& options = {}, double time = 0.0,
+                   int steps_done = 0)
+      : Stepper(Mesh(mesh), options, time, steps_done) {}
 
   // To given positions, one per user's vertex in the user's order; with quality "smooth" or strategy "optimize"
   // vertices may be elsewhere afterwards. Throws InputError for another number of them or a dt that is negative
