@@ -44,6 +44,7 @@ class MeshBuilder {
   void add_padding(std::span<const Triangle> padding);
   void connect();
   std::vector<int> number_halfedges();
+  void label_vertices();
   void link_face(int face);
   void link_border(const std::vector<int>& border);
   void constrain();
@@ -233,13 +234,19 @@ void MeshBuilder::connect() {
   const auto n_edges = (n_sides + n_hull) / 2;
   std::vector<int> hull;
   parallel_pair([&] { mesh_.topology_.resize(mesh_.n_vertices(), n_edges, mesh_.n_faces()); },
-                [&] { hull = number_halfedges(); });
+                [&] {
+                  hull = number_halfedges();
+                  label_vertices();
+                });
   parallel_parts(mesh_.n_faces(), grain, [&](int, int begin, int end) {
     for (int f = begin; f < end; ++f) link_face(f);
   });
-  for (int s = 0; s < n_sides; ++s)
-    mesh_.topology_.set_halfedge_handle(VertexHandle(ends_of_side(mesh_.triangles_, s)[0]),
-                                        HalfedgeHandle(halfedge_[s]));
+  for (int s = 0; s < n_sides; s += 3) {
+    const auto& [a, b, c] = mesh_.triangles_[s / 3];
+    mesh_.topology_.set_halfedge_handle(VertexHandle(a), HalfedgeHandle(halfedge_[s]));
+    mesh_.topology_.set_halfedge_handle(VertexHandle(b), HalfedgeHandle(halfedge_[s + 1]));
+    mesh_.topology_.set_halfedge_handle(VertexHandle(c), HalfedgeHandle(halfedge_[s + 2]));
+  }
   link_border(hull);
   opposite_ = std::vector<int>();
   halfedge_ = std::vector<int>();
@@ -260,6 +267,13 @@ std::vector<int> MeshBuilder::number_halfedges() {
       hull.push_back(s);
   }
   return hull;
+}
+
+void MeshBuilder::label_vertices() {
+  mesh_.home_label_.assign(mesh_.n_vertices(), 0);
+  for (int f = 0; f < mesh_.n_faces(); ++f) {
+    for (const int v : mesh_.triangles_[f]) mesh_.home_label_[v] = mesh_.labels_[f];
+  }
 }
 
 void MeshBuilder::link_face(int face) {
@@ -308,13 +322,13 @@ int MeshBuilder::label_beside(int halfedge) const {
 
 void MeshBuilder::constrain() {
   mesh_.on_constraint_.assign(mesh_.n_vertices(), false);
-  mesh_.home_label_.assign(mesh_.n_vertices(), 0);
-  for (int f = 0; f < mesh_.n_faces(); ++f) {
-    for (const int v : mesh_.triangles_[f]) mesh_.home_label_[v] = mesh_.labels_[f];
-  }
-  for (int e = 0; e < mesh_.n_edges(); ++e) {
-    if (label_beside(2 * e) != label_beside(2 * e + 1)) constrain_edge(e, none);
-  }
+  std::array<std::vector<int>, most_parts> interfaces;
+  parallel_parts(mesh_.n_edges(), grain, [&](int part, int begin, int end) {
+    for (int e = begin; e < end; ++e)
+      if (label_beside(2 * e) != label_beside(2 * e + 1)) interfaces[part].push_back(e);
+  });
+  for (const auto& edges : interfaces)
+    for (const int e : edges) constrain_edge(e, none);
   constrain_markers();
   mesh_.label_names_ = data_.label_names;
 }

@@ -119,6 +119,7 @@ bool Scanner::take_plain(Number& value) {
 }
 
 bool Scanner::at_end() {
+  if (at_ != end_ && *at_ > ' ' && !is_comment()) return false;  // the way it nearly always is
   for (;;) {
     skip_blanks();
     if (at_ == end_) return true;
