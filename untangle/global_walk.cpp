@@ -87,18 +87,22 @@ void GlobalWalk::visit(int face) {
 
 void GlobalWalk::leave(int face) {
   const bool all_sides = is_tangled_[face];  // rule (i)
+  bool has_near = false;
   for (const int side : mesh_->sides(face)) {
     const int across = mesh_->face_of(Mesh::opposite(side));
     if (across == none || regions_->set_of(across) == region_) continue;
-    if (all_sides || is_tangled_[across] || is_conflicting(side)) visit(across);
+    const bool is_in = all_sides || is_tangled_[across];
+    if (!is_in && !has_near) shadows_.find_near(mesh_->corners(face), near_);
+    has_near = has_near || !is_in;
+    if (is_in || is_conflicting(side)) visit(across);
   }
 }
 
-// Rules (ii) and (iii).
+// Rules (ii) and (iii), for a side of the face that near_ is of.
 bool GlobalWalk::is_conflicting(int side) const {
   const int a = mesh_->from(side), b = mesh_->to(side);
   const Segment edge{mesh_->position(a), mesh_->position(b), a, b};
-  return shadows_.any_near(edge.a, edge.b, [&](int face) {
+  return shadows_.any_of(near_, edge.a, edge.b, [&](int face) {
     return touches(edge, Corners{mesh_->corners(face), mesh_->triangles()[face]});
   });
 }

@@ -52,6 +52,7 @@ class GlobalWalk {
   std::size_t next_seed_ = 0;     // in tangled_
   std::vector<bool> is_tangled_;  // per face; all false between walks but for those in tangled_
   ShadowIndex shadows_;           // of F
+  std::vector<int> near_;         // in shadows_, near the face that is being left
   std::vector<int> pending_;
   int n_visited_ = 0;
   int most_faces_ = std::numeric_limits<int>::max();

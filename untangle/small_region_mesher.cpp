@@ -5,16 +5,18 @@
 #include <utility>
 
 #include "core/predicates.h"
+#include "untangle/box.h"
 
 namespace kinemesh {
 namespace {
 
-constexpr int following(int k) {
-  return k == 2 ? 0 : k + 1;
+// Of a side, around its face.
+constexpr int following(int side) {
+  return side % 3 == 2 ? side - 2 : side + 1;
 }
 
-constexpr int preceding(int k) {
-  return k == 0 ? 2 : k - 1;
+constexpr int preceding(int side) {
+  return side % 3 == 0 ? side + 2 : side - 1;
 }
 
 bool is_left(const Point& a, const Point& b, const Point& p) {
@@ -53,7 +55,14 @@ bool SmallRegionMesher::collect(const Mesh& mesh, const Hole& hole) {
 void SmallRegionMesher::number_vertices(const Mesh& mesh, const Hole& hole) {
   std::array<int, 3 * max_faces> corners;
   auto end = corners.begin();
-  for (const int face : hole.faces) end = std::ranges::copy(mesh.triangles()[face], end).out;
+  constexpr int n_recent = 64;
+  std::array<int, n_recent> recent;  // most that come again are here
+  recent.fill(none);
+  for (const int face : hole.faces) {
+    for (const int v : mesh.triangles()[face]) {
+      if (std::exchange(recent[v % n_recent], v) != v) *end++ = v;
+    }
+  }
   std::sort(corners.begin(), end);
   end = std::unique(corners.begin(), end);
   n_vertices_ = static_cast<int>(end - corners.begin());
@@ -78,19 +87,29 @@ bool SmallRegionMesher::trace_border() {
   loop_.clear();
   int v = first;
   do {
-    loop_.push_back(v);
+    loop_.push_back({v, ~v, Orientation::Collinear});
     v = border_next_[v];
   } while (v != first && static_cast<int>(loop_.size()) < n_border);
-  return v == first && static_cast<int>(loop_.size()) == n_border;
+  if (v != first || static_cast<int>(loop_.size()) != n_border) return false;
+  for (std::size_t i = 0; i < loop_.size(); ++i) find_turn(i);
+  return true;
 }
 
 bool SmallRegionMesher::is_border_simple() const {
-  const auto edge_from = [&](int v) {
-    return Segment{points_[v], points_[border_next_[v]], v, border_next_[v]};
+  const std::size_t n = loop_.size();
+  // Neighbours not on one line meet at their common end only.
+  const auto is_bend = [&](std::size_t i, std::size_t j) {
+    return (after(j) == i && loop_[i].turn != Orientation::Collinear) ||
+           (after(i) == j && loop_[j].turn != Orientation::Collinear);
   };
-  for (std::size_t i = 0; i < loop_.size(); ++i) {
+  std::array<Segment, max_vertices> edges;
+  std::array<Box, max_vertices> boxes;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int from = loop_[i].vertex, to = loop_[after(i)].vertex;
+    edges[i] = {points_[from], points_[to], from, to};
+    boxes[i] = box_of(points_[from], points_[to]);
     for (std::size_t j = 0; j < i; ++j) {
-      if (segments_touch(edge_from(loop_[i]), edge_from(loop_[j]))) return false;
+      if (meet(boxes[i], boxes[j]) && !is_bend(i, j) && segments_touch(edges[i], edges[j])) return false;
     }
   }
   return true;
@@ -98,27 +117,22 @@ bool SmallRegionMesher::is_border_simple() const {
 
 // A simple polygon turns at its lowest vertex the way it goes around.
 bool SmallRegionMesher::is_counter_clockwise() const {
-  const auto is_lower = [&](int v, int w) {
-    return std::pair(points_[v].x, points_[v].y) < std::pair(points_[w].x, points_[w].y);
+  const auto is_lower = [&](const Tip& s, const Tip& t) {
+    const Point &p = points_[s.vertex], &q = points_[t.vertex];
+    return std::pair(p.x, p.y) < std::pair(q.x, q.y);
   };
-  const auto lowest = static_cast<std::size_t>(std::ranges::min_element(loop_, is_lower) - loop_.begin());
-  const int before = loop_[(lowest + loop_.size() - 1) % loop_.size()];
-  const int after = loop_[(lowest + 1) % loop_.size()];
-  return is_left(points_[before], points_[loop_[lowest]], points_[after]);
+  return std::ranges::min_element(loop_, is_lower)->turn == Orientation::CounterClockwise;
 }
 
 // --- a triangulation of it ---
 
 // Every triangulation of what is left has two ears, the last leaves of its dual tree.
 void SmallRegionMesher::clip_ears() {
-  faces_.clear();
-  across_.clear();
-  for (const int v : loop_) across_.push_back(~v);
+  n_new_ = 0;
   for (std::size_t i = 0, refused = 0; loop_.size() > 3;) {
-    const std::size_t n = loop_.size();
-    if (refused == n) throw std::logic_error("a simple polygon has no ear");
-    i %= n;
-    if (is_ear(loop_[(i + n - 1) % n], loop_[i], loop_[(i + 1) % n])) {
+    if (refused == loop_.size()) throw std::logic_error("a simple polygon has no ear");
+    if (i >= loop_.size()) i -= loop_.size();
+    if (is_ear(i)) {
       clip(i);
       refused = 0;
     } else {
@@ -126,25 +140,38 @@ void SmallRegionMesher::clip_ears() {
       ++refused;
     }
   }
-  add({loop_[0], loop_[1], loop_[2]}, {across_[0], across_[1], across_[2]});
+  add({loop_[0].vertex, loop_[1].vertex, loop_[2].vertex},
+      {loop_[0].across, loop_[1].across, loop_[2].across});
 }
 
-bool SmallRegionMesher::is_ear(int before, int tip, int after) const {
-  const Point &a = points_[before], &b = points_[tip], &c = points_[after];
-  if (!is_left(a, b, c)) return false;
-  return std::ranges::none_of(loop_, [&](int v) {
-    if (v == before || v == tip || v == after) return false;
-    const Point& p = points_[v];
+// What reaches into it has, where it reaches farthest, a vertex that does not turn left.
+bool SmallRegionMesher::is_ear(std::size_t i) const {
+  const Tip &first = loop_[before(i)], &tip = loop_[i], &last = loop_[after(i)];
+  if (tip.turn != Orientation::CounterClockwise) return false;
+  const Point &a = points_[first.vertex], &b = points_[tip.vertex], &c = points_[last.vertex];
+  return std::ranges::none_of(loop_, [&](const Tip& other) {
+    if (other.turn == Orientation::CounterClockwise) return false;
+    if (other.vertex == first.vertex || other.vertex == last.vertex) return false;
+    const Point& p = points_[other.vertex];
     return !is_left(b, a, p) && !is_left(c, b, p) && !is_left(a, c, p);
   });
 }
 
 // The face goes from the vertex before over the tip to the one after; its third side takes the place of two.
 void SmallRegionMesher::clip(std::size_t i) {
-  const std::size_t before = (i + loop_.size() - 1) % loop_.size(), after = (i + 1) % loop_.size();
-  across_[before] = add({loop_[before], loop_[i], loop_[after]}, {across_[before], across_[i], none});
+  Tip& first = loop_[before(i)];
+  const Tip &tip = loop_[i], &last = loop_[after(i)];
+  const int face = add({first.vertex, tip.vertex, last.vertex}, {first.across, tip.across, none});
+  first.across = 3 * face + 2;
   loop_.erase(loop_.begin() + static_cast<std::ptrdiff_t>(i));
-  across_.erase(across_.begin() + static_cast<std::ptrdiff_t>(i));
+  if (i == loop_.size()) i = 0;
+  find_turn(before(i));
+  find_turn(i);
+}
+
+void SmallRegionMesher::find_turn(std::size_t i) {
+  loop_[i].turn = orientation(points_[loop_[before(i)].vertex], points_[loop_[i].vertex],
+                              points_[loop_[after(i)].vertex]);
 }
 
 // --- the vertices inside ---
@@ -159,47 +186,63 @@ bool SmallRegionMesher::insert_inner_vertices() {
 // False if no face has it inside or on a side that may be split.
 bool SmallRegionMesher::insert(int vertex) {
   const Point& p = points_[vertex];
-  for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
-    const auto& c = faces_[f].corners;
-    std::array<Orientation, 3> at;
-    for (int k = 0; k < 3; ++k) at[k] = orientation(points_[c[k]], points_[c[following(k)]], p);
-    if (std::ranges::count(at, Orientation::Clockwise) > 0) continue;
-    const auto n_on = std::ranges::count(at, Orientation::Collinear);
-    if (n_on > 1) return false;  // at a corner
-    if (n_on == 1)
-      return split_side(f, static_cast<int>(std::ranges::find(at, Orientation::Collinear) - at.begin()),
-                        vertex);
-    split_face(f, vertex);
-    return true;
+  int face = walk_towards(p);
+  for (int next = 0; face == none && next < n_new_; ++next) {
+    if (side_away_from(p, next) == none) face = next;
   }
-  return false;
+  if (face == none) return false;
+  const auto is_on = [&](int side) {
+    return orientation(points_[start_[side]], points_[start_[following(side)]], p) == Orientation::Collinear;
+  };
+  const std::array<int, 3> sides{3 * face, 3 * face + 1, 3 * face + 2};
+  const auto n_on = std::ranges::count_if(sides, is_on);
+  if (n_on > 1) return false;  // at a corner
+  if (n_on == 1) return split_side(*std::ranges::find_if(sides, is_on), vertex);
+  split_face(face, vertex);
+  return true;
+}
+
+// The face that has the point, or none where the walk from the newest one comes to the border.
+int SmallRegionMesher::walk_towards(const Point& p) const {
+  int face = n_new_ - 1;
+  for (int steps = 0; steps < n_new_; ++steps) {
+    const int side = side_away_from(p, face);
+    if (side == none) return face;
+    if (across_[side] < 0) return none;
+    face = across_[side] / 3;
+  }
+  return none;
+}
+
+// A side of the face beyond which the point lies, or none.
+int SmallRegionMesher::side_away_from(const Point& p, int face) const {
+  for (int side = 3 * face; side < 3 * face + 3; ++side) {
+    if (is_left(points_[start_[following(side)]], points_[start_[side]], p)) return side;
+  }
+  return none;
 }
 
 void SmallRegionMesher::split_face(int face, int vertex) {
-  const auto [c, n] = faces_[face];
-  const int second = static_cast<int>(faces_.size()), third = second + 1;
-  faces_[face] = {{c[0], c[1], vertex}, {n[0], second, third}};
-  faces_.push_back({{c[1], c[2], vertex}, {n[1], third, face}});
-  faces_.push_back({{c[2], c[0], vertex}, {n[2], face, second}});
-  relink(n[1], face, second);
-  relink(n[2], face, third);
+  const int side = 3 * face, a = start_[side], b = start_[side + 1], c = start_[side + 2];
+  const int bc = across_[side + 1], ca = across_[side + 2];
+  set(face, {a, b, vertex}, {across_[side], none, none});
+  const int second = add({b, c, vertex}, {bc, none, side + 1});
+  add({c, a, vertex}, {ca, side + 2, 3 * second + 1});
 }
 
 // Both faces beside it become two; false on the border.
-bool SmallRegionMesher::split_side(int face, int side, int vertex) {
-  const int other = faces_[face].neighbours[side];
-  if (other < 0) return false;
-  const int back = side_towards(other, face);
-  const auto [c, n] = faces_[face];
-  const auto [d, m] = faces_[other];
-  const int a = c[side], b = c[following(side)], apex = c[preceding(side)], far = d[preceding(back)];
-  const int left = static_cast<int>(faces_.size()), right = left + 1;
-  faces_[face] = {{vertex, b, apex}, {other, n[following(side)], left}};
-  faces_[other] = {{b, vertex, far}, {face, right, m[preceding(back)]}};
-  faces_.push_back({{a, vertex, apex}, {right, face, n[preceding(side)]}});
-  faces_.push_back({{vertex, a, far}, {left, m[following(back)], other}});
-  relink(n[preceding(side)], face, left);
-  relink(m[following(back)], other, right);
+bool SmallRegionMesher::split_side(int side, int vertex) {
+  const int back = across_[side];
+  if (back < 0) return false;
+  const int face = side / 3, other = back / 3;
+  const int a = start_[side], b = start_[back];
+  const int apex = start_[preceding(side)], far = start_[preceding(back)];
+  const int b_apex = across_[following(side)], apex_a = across_[preceding(side)];
+  const int a_far = across_[following(back)], far_b = across_[preceding(back)];
+  set(face, {vertex, b, apex}, {none, b_apex, none});
+  set(other, {b, vertex, far}, {3 * face, none, far_b});
+  const int left = add({a, vertex, apex}, {none, 3 * face + 2, apex_a});
+  add({vertex, a, far}, {3 * left, a_far, 3 * other + 1});
   return true;
 }
 
@@ -207,15 +250,13 @@ bool SmallRegionMesher::split_side(int face, int side, int vertex) {
 
 // Each edge is looked at once, and again when a face beside it has become another [Lawson 1977].
 void SmallRegionMesher::flip_to_delaunay() {
-  for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      if (faces_[f].neighbours[k] > f) suspects_.push_back({f, k});
-    }
+  for (int side = 0; side < 3 * n_new_; ++side) {
+    if (across_[side] > side) suspects_.push_back(side);
   }
   while (!suspects_.empty()) {
-    const auto [face, side] = suspects_.back();
+    const int side = suspects_.back();
     suspects_.pop_back();
-    flip_if_better(face, side);
+    flip_if_better(side);
   }
 }
 
@@ -224,55 +265,47 @@ void SmallRegionMesher::flip_to_delaunay() {
 //   a --> b  ->   a  |  b
 //    \   /         \ | /
 //      d             d
-void SmallRegionMesher::flip_if_better(int face, int side) {
-  const int other = faces_[face].neighbours[side];
-  if (other < 0) return;
-  const int back = side_towards(other, face);
-  const int a = faces_[face].corners[side], b = faces_[face].corners[following(side)];
-  const int c = faces_[face].corners[preceding(side)], d = faces_[other].corners[preceding(back)];
+void SmallRegionMesher::flip_if_better(int side) {
+  const int back = across_[side];
+  if (back < 0) return;
+  const int a = start_[side], b = start_[back];
+  const int c = start_[preceding(side)], d = start_[preceding(back)];
   if (in_circle(points_[a], points_[b], points_[c], points_[d]) != Side::Inside) return;
-  const int bc = faces_[face].neighbours[following(side)], ca = faces_[face].neighbours[preceding(side)];
-  const int ad = faces_[other].neighbours[following(back)], db = faces_[other].neighbours[preceding(back)];
-  faces_[face] = {{a, d, c}, {ad, other, ca}};
-  faces_[other] = {{d, b, c}, {db, bc, face}};
-  relink(ad, other, face);
-  relink(bc, face, other);
-  suspects_.insert(suspects_.end(), {{face, 0}, {face, 2}, {other, 0}, {other, 1}});
+  const int bc = across_[following(side)], ca = across_[preceding(side)];
+  const int ad = across_[following(back)], db = across_[preceding(back)];
+  const int face = side / 3, other = back / 3;
+  set(face, {a, d, c}, {ad, none, ca});
+  set(other, {d, b, c}, {db, bc, 3 * face + 1});
+  suspects_.insert(suspects_.end(), {3 * face, 3 * face + 2, 3 * other, 3 * other + 1});
 }
 
 // --- faces and their neighbours ---
 
-int SmallRegionMesher::add(const std::array<int, 3>& corners, const std::array<int, 3>& neighbours) {
-  const int face = static_cast<int>(faces_.size());
-  faces_.push_back({corners, neighbours});
+// Across a side whose neighbour is yet to come: none.
+int SmallRegionMesher::add(const Triangle& corners, const Triangle& across) {
+  set(n_new_, corners, across);
+  return n_new_++;
+}
+
+void SmallRegionMesher::set(int face, const Triangle& corners, const Triangle& across) {
   for (int k = 0; k < 3; ++k) {
-    const int other = neighbours[k];
-    if (other < 0) continue;
-    auto& towards = faces_[other];
-    towards.neighbours[std::ranges::find(towards.corners, corners[following(k)]) - towards.corners.begin()] =
-        face;
+    const int side = 3 * face + k;
+    start_[side] = corners[k];
+    across_[side] = across[k];
+    if (across[k] >= 0) across_[across[k]] = side;
   }
-  return face;
-}
-
-void SmallRegionMesher::relink(int neighbour, int from, int to) {
-  if (neighbour >= 0) faces_[neighbour].neighbours[side_towards(neighbour, from)] = to;
-}
-
-int SmallRegionMesher::side_towards(int face, int neighbour) const {
-  const auto& n = faces_[face].neighbours;
-  return static_cast<int>(std::ranges::find(n, neighbour) - n.begin());
 }
 
 void SmallRegionMesher::convert() {
   new_faces_.clear();
-  for (const auto& [corners, neighbours] : faces_) {
-    Triangle global, across;
+  for (int face = 0; face < n_new_; ++face) {
+    Triangle corners, neighbours;
     for (int k = 0; k < 3; ++k) {
-      global[k] = vertices_[corners[k]];
-      across[k] = neighbours[k] >= 0 ? neighbours[k] : ~halfedge_from_[~neighbours[k]];
+      const int across = across_[3 * face + k];
+      corners[k] = vertices_[start_[3 * face + k]];
+      neighbours[k] = across >= 0 ? across / 3 : ~halfedge_from_[~across];
     }
-    new_faces_.add(global, across, {none, none, none});
+    new_faces_.add(corners, neighbours, {none, none, none});
   }
 }
 

@@ -1,18 +1,19 @@
-// New upright faces for a handful of faces: what nearly every region of a step is.
+// New upright faces for up to a hundred faces or so: what nearly every region of a step is.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "core/mesh.h"
+#include "core/predicates.h"
 #include "untangle/hole.h"
 #include "untangle/new_faces.h"
 
 namespace kinemesh {
 
 // The constrained Delaunay triangulation of a simple polygon and the vertices inside it: ears are clipped,
-// vertices inserted, edges flipped, all with exact signs and within fixed arrays. Quadratic, but over so few
-// edges that this takes a fraction of the time a general triangulator needs.
+// vertices inserted, edges flipped, all with exact signs and within fixed arrays. Quadratic, but in tests of a few
+// instructions each, so that this takes a fraction of the time a general triangulator needs.
 class SmallRegionMesher {
  public:
   // False where RegionMesher has to look: more than max_faces faces, a border that is not one loop or touches
@@ -22,16 +23,16 @@ class SmallRegionMesher {
 
   NewFaces& new_faces() { return new_faces_; }  // of the last region
 
-  static constexpr int max_faces = 30;
+  static constexpr int max_faces = 128;
 
  private:
   static constexpr int max_vertices = max_faces + 2;  // of a disc
 
-  // Numbers of vertices and triangles are local. Across side k, from corner k to corner k + 1: a triangle, or
-  // ~v where the border leaves v.
-  struct Face {
-    std::array<int, 3> corners;
-    std::array<int, 3> neighbours;
+  // A vertex of the border of what is left to clip.
+  struct Tip {
+    int vertex;
+    int across;  // beyond the side from it to the next tip, as in across_
+    Orientation turn;
   };
 
   bool collect(const Mesh& mesh, const Hole& hole);
@@ -42,18 +43,23 @@ class SmallRegionMesher {
   bool is_counter_clockwise() const;
 
   void clip_ears();
-  bool is_ear(int before, int tip, int after) const;
+  bool is_ear(std::size_t i) const;
   void clip(std::size_t i);
+  void find_turn(std::size_t i);
+  std::size_t before(std::size_t i) const { return (i == 0 ? loop_.size() : i) - 1; }
+  std::size_t after(std::size_t i) const { return i + 1 == loop_.size() ? 0 : i + 1; }
+
   bool insert_inner_vertices();
   bool insert(int vertex);
+  int walk_towards(const Point& p) const;
+  int side_away_from(const Point& p, int face) const;
   void split_face(int face, int vertex);
-  bool split_side(int face, int side, int vertex);
+  bool split_side(int side, int vertex);
   void flip_to_delaunay();
-  void flip_if_better(int face, int side);
+  void flip_if_better(int side);
 
-  int add(const std::array<int, 3>& corners, const std::array<int, 3>& neighbours);
-  void relink(int neighbour, int from, int to);
-  int side_towards(int face, int neighbour) const;
+  int add(const Triangle& corners, const Triangle& across);
+  void set(int face, const Triangle& corners, const Triangle& across);
   void convert();
 
   int n_faces_ = 0, n_vertices_ = 0;             // of the region
@@ -62,10 +68,13 @@ class SmallRegionMesher {
   std::array<int, max_vertices> halfedge_from_;  // of the border, by where it leaves; none inside
   std::array<int, max_vertices> border_next_;    // the vertex it goes to
 
-  // What is left to clip: vertex i and what lies across the side from it to the next.
-  std::vector<int> loop_, across_;
-  std::vector<Face> faces_;
-  std::vector<std::array<int, 2>> suspects_;  // face and side
+  std::vector<Tip> loop_;
+
+  // Side 3f + k of the first n_new_ faces runs from corner k of face f to corner k + 1. Vertices are local.
+  int n_new_ = 0;
+  std::array<int, 3 * max_faces> start_;   // the vertex it runs from
+  std::array<int, 3 * max_faces> across_;  // the side that runs back, or ~v where the border leaves v
+  std::vector<int> suspects_;              // sides
   NewFaces new_faces_;
 };
 
