@@ -2,7 +2,6 @@
 #pragma once
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -55,15 +54,12 @@ int find_first(int n, int grain, const Predicate& is_wanted) {
 // Calls both, at the same time where there are threads. Neither may write what the other reads.
 template <class First, class Second>
 void parallel_pair(const First& first, const Second& second) {
-  std::atomic<int> started{0}, done{0};
-  started.fetch_add(1, std::memory_order_release);
-  const auto counted = [&](const auto& work) {
-    started.load(std::memory_order_acquire);
-    work();
-    done.fetch_add(1, std::memory_order_release);
-  };
-  tbb::parallel_invoke([&] { counted(first); }, [&] { counted(second); });
-  done.load(std::memory_order_acquire);
+  parallel_parts(2, 1, [&](int part, int, int) {
+    if (part == 0)
+      first();
+    else
+      second();
+  });
 }
 
 }  // namespace kinemesh

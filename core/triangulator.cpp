@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "core/cgal_triangulation.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 
 namespace kinemesh {
@@ -44,6 +45,33 @@ struct PointIn {
   friend reference get(const PointIn&, const NumberedPoint& p) { return p.point; }
 };
 using NumberedSortTraits = CGAL::Spatial_sort_traits_adapter_2<Kernel, PointIn>;
+
+// What CGAL::hilbert_sort does, its four quarters at the same time. CGAL could do that too, but hands its tasks
+// over where the thread sanitizer does not see it.
+void sort_along_curve(std::vector<NumberedPoint>& points) {
+  using Sort = CGAL::Hilbert_sort_median_2<NumberedSortTraits, CGAL::Sequential_tag>;
+  boost::rand48 random;
+  boost::random_number_generator<boost::rand48, std::ptrdiff_t> number(random);
+  CGAL::cpp98::random_shuffle(points.begin(), points.end(), number);
+  const auto begin = points.begin(), end = points.end(), middle = begin + (end - begin) / 2;
+  const auto low = begin + (middle - begin) / 2, high = middle + (end - middle) / 2;
+  const Sort sort{NumberedSortTraits()};
+  std::nth_element(begin, middle, end,
+                   [](const auto& p, const auto& q) { return p.point.x() < q.point.x(); });
+  const auto left = [&] {
+    std::nth_element(begin, low, middle,
+                     [](const auto& p, const auto& q) { return p.point.y() < q.point.y(); });
+    parallel_pair([&] { sort.recursive_sort<1, false, false>(begin, low); },
+                  [&] { sort.recursive_sort<0, false, false>(low, middle); });
+  };
+  const auto right = [&] {
+    std::nth_element(middle, high, end,
+                     [](const auto& p, const auto& q) { return q.point.y() < p.point.y(); });
+    parallel_pair([&] { sort.recursive_sort<0, false, false>(middle, high); },
+                  [&] { sort.recursive_sort<1, true, true>(high, end); });
+  };
+  parallel_pair(left, right);
+}
 
 std::vector<int> numbers_to(std::size_t n) {
   std::vector<int> numbers(n);
@@ -88,10 +116,11 @@ std::optional<Contact> Triangulator::triangulate(std::span<const Point> points, 
 }
 
 std::vector<int> hilbert_order(std::span<const Point> points) {
+  if (points.size() < 2) return numbers_to(points.size());
   std::vector<NumberedPoint> numbered(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     numbered[i] = {{points[i].x, points[i].y}, static_cast<int>(i)};
-  CGAL::hilbert_sort<CGAL::Parallel_tag>(numbered.begin(), numbered.end(), NumberedSortTraits());
+  sort_along_curve(numbered);
   std::vector<int> order(points.size());
   std::transform(numbered.begin(), numbered.end(), order.begin(), [](const auto& p) { return p.number; });
   return order;
