@@ -1,40 +1,21 @@
-// What sweeps over all faces are made of: two doubles in one register, on any machine, and positions that are
-// on their way from memory before they are asked for.
+// Looking at all faces of a mesh, stretch by stretch, with the widest registers the machine has.
 #pragma once
 
 #include <algorithm>
 #include <span>
 
-#include "core/types.h"
+#include "core/face_sweep_kernel.h"
+#include "core/mesh.h"
 
 namespace kinemesh {
 
-using Pair = double __attribute__((vector_size(16)));
-using PairMask = long long __attribute__((vector_size(16)));  // of each double: -1 true, 0 false
-
-inline Pair difference(const Point& a, const Point& b) {
-  return Pair{a.x, a.y} - Pair{b.x, b.y};
+// Stretch s is of 64 faces from 64 s on, the last one of what is left.
+inline int n_stretches(int n_faces) {
+  return (n_faces + stretch_faces - 1) / stretch_faces;
 }
 
-inline Pair swapped(Pair p) {
-  return __builtin_shufflevector(p, p, 1, 0);
-}
-
-inline Pair firsts(Pair p, Pair q) {
-  return __builtin_shufflevector(p, q, 0, 2);
-}
-
-inline Pair seconds(Pair p, Pair q) {
-  return __builtin_shufflevector(p, q, 1, 3);
-}
-
-inline Pair magnitude(Pair p) {
-  return p < 0.0 ? -p : p;
-}
-
-inline Pair smaller(Pair p, Pair q) {
-  return p < q ? p : q;
-}
+// Padding included. Bits beyond the last face are 0. To the same bits on every machine.
+Sight look_at_stretch(const Mesh& mesh, int stretch);
 
 // Asks for the corners of a face that comes a little after this one. The first follows by itself, since faces
 // are in the order of their lowest vertex.

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/orientation_filter.h"
 #include "core/types.h"
 
 namespace kinemesh {
@@ -25,15 +26,6 @@ constexpr Orientation operator-(Orientation o) {
 // Out of line: exact, always right, slow (core/exact.cpp).
 Orientation orientation_exact(const Point& a, const Point& b, const Point& c);
 Side in_circle_exact(const Point& a, const Point& b, const Point& c, const Point& d);
-
-// Error of the determinant below. With u = 2^-53 each difference and product is right within a factor 1 +- u,
-// a product of differences l, r therefore within 3u + O(u^2) of |l|, |r|, and l - r within u of itself; a
-// product that underflows is off by at most 2^-1075 more. So |det - exact| <= u |det| + (3u + O(u^2)) (|l| +
-// |r|) + 2^-1073, and the sign is right once |det| exceeds 4u (|l| + |r|) + 2^-1022 [Shewchuk 1997, §4.3,
-// with room for rounding the bound itself]. Overflow makes the bound infinite or either side NaN: the
-// comparison fails and the exact way is taken.
-inline constexpr double orientation_error = 4.0 * 0x1p-53;
-inline constexpr double underflow_error = std::numeric_limits<double>::min();
 
 // Which way a -> b -> c turns.
 inline Orientation orientation(const Point& a, const Point& b, const Point& c) {

@@ -85,16 +85,6 @@ class ChangesInPlace {
   ChangeTracker* tracker_;
 };
 
-void describe_mesh(const Mesh& mesh, StepRecord& record) {
-  const Stopwatch clock;
-  const Measures measures = measure(mesh);
-  record.vertices = mesh.n_user_vertices();
-  record.faces = mesh.n_user_faces();
-  record.min_angle_deg = measures.min_angle_deg;
-  record.min_area = measures.min_area;
-  record.measure_ms = clock.milliseconds();
-}
-
 void require_forward(double dt) {
   if (!std::isfinite(dt) || dt < 0) throw InputError("time step: a finite number, not negative, expected");
 }
@@ -122,6 +112,7 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   outcome.record.time = end_time;
   outcome.record.dt = dt;
 
+  minima_.reset(mesh_.n_faces());
   next_.assign(mesh_.positions().begin(), mesh_.positions().end());
   outcome.defect = move(std::span<Point>(next_));
   if (!outcome.defect) {
@@ -138,7 +129,7 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
     outcome.record.accepted = true;
   }
   refresh_positions();
-  describe_mesh(mesh_, outcome.record);
+  measure(outcome);
   outcome.record.total_ms = clock.milliseconds();
   return outcome;
 }
@@ -147,6 +138,7 @@ void Stepper::repair_moved(StepOutcome& outcome) {
   PositionsInPlace moved(mesh_, next_);
   RepairOptions options = repair_;
   options.before = next_;
+  options.minima = &minima_;
   RepairOutcome repaired = strategy_->repair(mesh_, options);
   outcome.record.repair = std::move(repaired.record);
   outcome.defect = std::move(repaired.defect);
@@ -181,6 +173,21 @@ std::optional<RegionsTooLarge> Stepper::excess(const RepairRecord& record) const
   const double share = static_cast<double>(record.region_faces()) / mesh_.n_faces();
   if (!(share > max_region_share_)) return std::nullopt;
   return RegionsTooLarge{share, max_region_share_};
+}
+
+// What detection has measured holds but for the faces that were rewritten since.
+void Stepper::measure(StepOutcome& outcome) {
+  const Stopwatch clock;
+  StepRecord& record = outcome.record;
+  if (!outcome || strategy_->moves_vertices() || quality_->moves_vertices()) minima_.reset(mesh_.n_faces());
+  for (const RegionRecord& region : record.repair.regions) minima_.outdate(region.faces);
+  minima_.outdate(quality_->flipped_faces());
+  const Minima minima = minima_.update(mesh_);
+  record.vertices = mesh_.n_user_vertices();
+  record.faces = mesh_.n_user_faces();
+  record.min_angle_deg = degrees(minima.tangent);
+  record.min_area = 0.5 * minima.twice_area;
+  record.measure_ms = clock.milliseconds();
 }
 
 // Cannot fail, and is undone by observers only. The initial mesh may have any shape, so the first step looks at

@@ -118,11 +118,13 @@ class Stepper {
   void improve(RepairRecord& record);
   void tell_observers(const StepRecord& record);
   void refresh_positions();
+  void measure(StepOutcome& outcome);
 
   Mesh mesh_;
   std::unique_ptr<Strategy> strategy_;
   std::unique_ptr<QualityPass> quality_;
   RepairOptions repair_;
+  FaceMinima minima_;
   double max_region_share_;
   std::vector<Point> next_;       // positions after the step, then before it
   std::vector<Point> positions_;  // what positions() hands out; empty before

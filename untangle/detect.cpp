@@ -1,6 +1,7 @@
 #include "untangle/detect.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/face_sweep.h"
 #include "core/parallel.h"
@@ -9,41 +10,20 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 1 << 14;  // faces that are worth a task
+constexpr int grain = 256;  // stretches that are worth a task
 
-// The two products of orientation(), {l, r}.
-Pair products(const Point* x, const Triangle& t) {
-  return difference(x[t[0]], x[t[2]]) * swapped(difference(x[t[1]], x[t[2]]));
-}
-
-// Of each of two faces: -1 if the filter of orientation() proves it upright.
-PairMask proves_upright(const Point* x, const Triangle& t, const Triangle& u) {
-  const Pair p = products(x, t), q = products(x, u);
-  const Pair l = firsts(p, q), r = seconds(p, q);
-  return l - r > orientation_error * (magnitude(l) + magnitude(r)) + underflow_error;
-}
-
-void judge(const Point* x, const Triangle* triangles, int f, Tangles& found) {
-  const auto [a, b, c] = triangles[f];
-  const auto turn = orientation(x[a], x[b], x[c]);
+void judge(const Mesh& mesh, int f, Tangles& found) {
+  const auto [a, b, c] = mesh.corners(f);
+  const auto turn = orientation(a, b, c);
   if (turn == Orientation::CounterClockwise) return;
   (turn == Orientation::Clockwise ? found.inverted : found.flat).push_back(f);
 }
 
-void sweep(const Mesh& mesh, int begin, int end, Tangles& found) {
-  const Point* const x = mesh.positions().data();
-  const Triangle* const triangles = mesh.triangles().data();
-  int f = begin;
-  for (; f + 1 < end; f += 2) {
-    fetch_ahead(mesh.triangles(), mesh.positions(), f);
-    fetch_ahead(mesh.triangles(), mesh.positions(), f + 1);
-    const PairMask upright = proves_upright(x, triangles[f], triangles[f + 1]);
-    if (upright[0] & upright[1]) [[likely]]
-      continue;
-    judge(x, triangles, f, found);
-    judge(x, triangles, f + 1, found);
-  }
-  if (f < end) judge(x, triangles, f, found);
+void sweep(const Mesh& mesh, int stretch, Tangles& found, FaceMinima* minima) {
+  const Sight sight = look_at_stretch(mesh, stretch);
+  for (auto doubtful = sight.doubtful; doubtful != 0; doubtful &= doubtful - 1)
+    judge(mesh, stretch * stretch_faces + std::countr_zero(doubtful), found);
+  if (minima) minima->set(stretch, {sight.twice_area, sight.tangent}, mesh);
 }
 
 void append(std::vector<int>& all, const std::vector<int>& some) {
@@ -52,10 +32,13 @@ void append(std::vector<int>& all, const std::vector<int>& some) {
 
 }  // namespace
 
-Tangles detect(const Mesh& mesh) {
-  std::vector<Tangles> found(n_parts(mesh.n_faces(), grain));
-  parallel_parts(mesh.n_faces(), grain,
-                 [&](int part, int begin, int end) { sweep(mesh, begin, end, found[part]); });
+Tangles detect(const Mesh& mesh, FaceMinima* minima) {
+  if (minima) minima->reset(mesh.n_faces());
+  const int n = n_stretches(mesh.n_faces());
+  std::vector<Tangles> found(n_parts(n, grain));
+  parallel_parts(n, grain, [&](int part, int begin, int end) {
+    for (int stretch = begin; stretch < end; ++stretch) sweep(mesh, stretch, found[part], minima);
+  });
   Tangles all;
   for (const auto& part : found) {
     append(all.inverted, part.inverted);
@@ -66,7 +49,7 @@ Tangles detect(const Mesh& mesh) {
 
 Tangles tangles_among(const Mesh& mesh, std::span<const int> faces) {
   Tangles found;
-  for (const int face : faces) judge(mesh.positions().data(), mesh.triangles().data(), face, found);
+  for (const int face : faces) judge(mesh, face, found);
   return found;
 }
 

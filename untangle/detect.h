@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh.h"
+#include "core/face_minima.h"
 
 namespace kinemesh {
 
@@ -16,8 +16,8 @@ struct Tangles {
 };
 
 // Exact. Padding included. One sweep over the flat mirror in all threads; the result does not depend on their
-// number.
-Tangles detect(const Mesh& mesh);
+// number. Minima, where they are wanted, are measured on the way.
+Tangles detect(const Mesh& mesh, FaceMinima* minima = nullptr);
 
 // The same for these faces, in their order.
 Tangles tangles_among(const Mesh& mesh, std::span<const int> faces);

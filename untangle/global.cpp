@@ -23,7 +23,7 @@ std::optional<RepairOutcome> GlobalUntangling::repair_within(const Limits& limit
   RepairOutcome outcome;
   auto& record = outcome.record;
   const Stopwatch detecting;
-  const auto tangles = detect(mesh);
+  const auto tangles = detect(mesh, options.minima);
   record.inverted = static_cast<int>(tangles.inverted.size());
   record.degenerate = static_cast<int>(tangles.flat.size());
   record.detect_ms = detecting.milliseconds();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/defect.h"
+#include "core/face_minima.h"
 #include "core/mesh.h"
 
 namespace kinemesh {
@@ -71,6 +72,9 @@ struct RepairOptions {
   bool retain = false;         // keep upright faces of a region that need not be replaced
   // Where the vertices came from, by the mesh's numbers: the mesh was valid there. Empty if nobody knows.
   std::span<const Point> before{};
+  // Where the faces' areas and angles go that detection sees before anything is rewritten; nobody wants them if
+  // null.
+  FaceMinima* minima = nullptr;
 };
 
 class Strategy {

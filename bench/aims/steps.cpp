@@ -60,14 +60,16 @@ class Contestant {
   void step() {
     Mesh mesh = moved(move_);
     const Stopwatch stepping;
-    const auto outcome = strategy_->repair(mesh, {.before = move_.mesh.positions()});
+    const auto outcome = strategy_->repair(mesh, {.before = move_.mesh.positions(), .minima = &minima_});
     require_valid(outcome);
     quality_->improve(mesh, move_.mesh.positions(), outcome.record.regions);
     const Stopwatch measuring;
-    replaced_ = 100.0 * outcome.record.replaced / mesh.n_faces();
-    min_angle_deg_ = kinemesh::measure(mesh).min_angle_deg;
+    for (const auto& region : outcome.record.regions) minima_.outdate(region.faces);
+    minima_.outdate(quality_->flipped_faces());
+    min_angle_deg_ = degrees(minima_.update(mesh).tangent);
     measuring_.push_back(measuring.milliseconds());
     step_.push_back(stepping.milliseconds());
+    replaced_ = 100.0 * outcome.record.replaced / mesh.n_faces();
     triangulating_.push_back(outcome.record.triangulate_ms);
     require_valid(mesh);
     if (!(min_angle_deg_ > 0.0)) throw std::logic_error("a valid mesh without angles");
@@ -84,6 +86,7 @@ class Contestant {
   const Move& move_;
   std::unique_ptr<Strategy> strategy_;
   std::unique_ptr<QualityPass> quality_;
+  FaceMinima minima_;
   std::vector<double> step_, measuring_, triangulating_;  // ms
   double replaced_ = 0.0, min_angle_deg_ = 0.0;
   std::vector<Triangle> triangles_;  // after the last step

@@ -66,7 +66,8 @@ void count_local(const Mesh& mesh, const Tangles& tangles) {
 // As `global` does it, in a mesh that is valid again in the end.
 void count_repair(Mesh& mesh) {
   Tangles tangles;
-  count("detect", [&] { tangles = detect(mesh); });
+  FaceMinima minima;
+  count("detect", [&] { tangles = detect(mesh, &minima); });
   require(tangles.inverted.size() > 1000, "hardly any tangles");
   count_local(mesh, tangles);
   GlobalWalk walk;

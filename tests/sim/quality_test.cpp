@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/build.h"
+#include "core/measure.h"
 #include "core/validate.h"
 #include "motion/registry.h"
 #include "sim/run.h"
@@ -180,6 +181,30 @@ TEST(DelaunaySteps, AreDelaunayInRandomScenarios) {
   RecordProperty("tangled", tally.tangled);
   RecordProperty("failed", tally.failed);
   RecordProperty("flips", tally.flips);
+}
+
+// What the log says of a step is measured in part before its repair.
+TEST(Record, HasTheMinimaOfTheMeshWhateverWasDoneToIt) {
+  const MeshData data = test::grid_with_hole(24, 9, 15);
+  const Mesh initial = build_mesh(data, {.frame = 0.25, .fixed = {}});
+  const Motion motion(initial, {{make_field("jitter", {{"amplitude", 0.25}}), {}}});
+  int tangled = 0, failed = 0;
+  for (const auto& strategy : strategies()) {
+    for (const auto& quality : qualities()) {
+      Stepper stepper(initial, {.strategy = strategy.name, .quality = quality.name});
+      for (int n = 1; n <= 12; ++n) {
+        const auto outcome = stepper.step(motion, 1.0);
+        const Measures measures = measure(stepper.mesh());
+        ASSERT_EQ(outcome.record.min_angle_deg, measures.min_angle_deg)
+            << strategy.name << ", " << at_step(outcome);
+        ASSERT_EQ(outcome.record.min_area, measures.min_area) << strategy.name << ", " << at_step(outcome);
+        tangled += outcome.record.repair.inverted > 0;
+        failed += !outcome;
+      }
+    }
+  }
+  EXPECT_GT(tangled, 100);
+  EXPECT_GT(failed, 0);
 }
 
 // The square's diagonals are no Delaunay edges after a shear: the first step finds all of them though only

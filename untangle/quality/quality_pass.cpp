@@ -18,6 +18,7 @@ class NoQuality : public QualityPass {
 class SmoothQuality : public QualityPass {
  public:
   explicit SmoothQuality(const Mesh& mesh) : sweeps_(mesh) {}
+  bool moves_vertices() const override { return true; }
   int improve(Mesh& mesh, std::span<const Point>, std::span<const RegionRecord>) override {
     sweeps_.run(mesh, {.method = SmoothingMethod::Laplacian, .max_sweeps = 5});
     return 0;

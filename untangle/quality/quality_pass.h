@@ -24,6 +24,9 @@ class QualityPass {
   // Deterministic, whatever the number of threads.
   virtual int improve(Mesh& mesh, std::span<const Point> before, std::span<const RegionRecord> replaced) = 0;
 
+  // True if improve() may write positions.
+  virtual bool moves_vertices() const { return false; }
+
   // Faces that flips of the last call have rewritten, each once; the mesh's numbers, padding included.
   virtual std::span<const int> flipped_faces() const { return {}; }
 };
