@@ -1,13 +1,36 @@
 #include "untangle/quality/delaunay_upkeep.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <new>
 
+#include "core/face_sweep.h"
 #include "core/parallel.h"
 #include "core/predicates.h"
+#include "untangle/quality/cotangents.h"
 
 namespace kinemesh {
 namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+// True of constrained edges and those of the hull. Corners are read from the flat mirror of the faces, which is
+// closer together than the half-edges.
+bool is_locally_delaunay(const Mesh& mesh, int edge) {
+  if (!mesh.is_flippable(edge)) return true;
+  const auto x = mesh.positions();
+  const auto& t = mesh.triangles()[mesh.face_of(2 * edge)];
+  const auto& o = mesh.triangles()[mesh.face_of(2 * edge + 1)];
+  const int apex =
+      o[0] ^ o[1] ^ o[2] ^ mesh.from(2 * edge) ^ mesh.to(2 * edge);  // what is left of its corners
+  return in_circle(x[t[0]], x[t[1]], x[t[2]], x[apex]) != Side::Inside;
+}
+
+// Asks for what sides() reads.
+void fetch_side(const Mesh& mesh, int face) {
+  __builtin_prefetch(&mesh.connectivity().halfedge(OpenMesh::HalfedgeHandle(mesh.halfedge_of(face))));
+}
 
 // Calls f(i) for 0 <= i < n in all threads; where there is no memory left to start them, in this one. So f
 // may come twice for an i.
@@ -28,6 +51,7 @@ void for_all(int n, const F& f) {
 DelaunayUpkeep::DelaunayUpkeep(const Mesh& mesh)
     : has_moved_(mesh.n_vertices(), false),
       has_changed_(mesh.n_faces(), false),
+      cotangent_(2 * mesh.n_edges(), unknown),
       is_wrong_(mesh.n_edges(), false) {
   wrong_.reserve(mesh.n_edges());
   flipping_.reserve(mesh);
@@ -60,7 +84,10 @@ void DelaunayUpkeep::find_changed_faces(const Mesh& mesh, std::span<const Point>
 
 void DelaunayUpkeep::find_wrong_edges(const Mesh& mesh) {
   for_all(mesh.n_faces(), [&](int f) {
-    if (has_changed_[f]) judge_sides(mesh, f);
+    if (has_changed_[f]) bound_angles(mesh, f);
+  });
+  for_all(mesh.n_edges(), [&](int e) {
+    if (needs_judgement(e)) is_wrong_[e] = !is_locally_delaunay(mesh, e);
   });
   wrong_.clear();
   for (int edge = 0; edge < mesh.n_edges(); ++edge) {
@@ -70,19 +97,23 @@ void DelaunayUpkeep::find_wrong_edges(const Mesh& mesh) {
   }
 }
 
-// An edge between two changed faces is left to the one with the smaller number. Corners are read from the
-// flat mirror of the faces, which is closer together than the half-edges.
-void DelaunayUpkeep::judge_sides(const Mesh& mesh, int face) {
-  const auto x = mesh.positions();
-  const auto& t = mesh.triangles()[face];
+void DelaunayUpkeep::bound_angles(const Mesh& mesh, int face) {
+  fetch_ahead(mesh.triangles(), mesh.positions(), face);
+  fetch_side(mesh, std::min(face + 32, mesh.n_faces() - 1));
+  const auto bounds = cotangent_bounds(mesh.corners(face));
   const Triangle sides = mesh.sides(face);
-  for (int k = 0; k < 3; ++k) {
-    const int edge = Mesh::edge_of(sides[k]), other = mesh.face_of(Mesh::opposite(sides[k]));
-    if (other == none || (other < face && has_changed_[other]) || mesh.constraint_of(edge) != none) continue;
-    const auto& o = mesh.triangles()[other];
-    const int apex = o[0] ^ o[1] ^ o[2] ^ t[k] ^ t[(k + 1) % 3];  // what is left of its corners
-    is_wrong_[edge] = in_circle(x[t[0]], x[t[1]], x[t[2]], x[apex]) == Side::Inside;
-  }
+  for (int k = 0; k < 3; ++k) cotangent_[sides[k]] = bounds[k];
+}
+
+// Of an edge of a changed face; not if it is proved to be locally Delaunay. Forgets what is known of it, so
+// that a second call, where memory was short, is true once more only for an edge that has not been judged.
+bool DelaunayUpkeep::needs_judgement(int edge) {
+  float& left = cotangent_[2 * edge];
+  float& right = cotangent_[2 * edge + 1];
+  if (std::isnan(left) && std::isnan(right)) return false;
+  const bool is_proved = left + right >= 0.0f;
+  left = right = unknown;
+  return !is_proved;
 }
 
 }  // namespace kinemesh

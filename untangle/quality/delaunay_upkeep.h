@@ -6,8 +6,8 @@
 
 namespace kinemesh {
 
-// Only edges of faces that are new or have a moved corner can have stopped being locally Delaunay. A parallel
-// sweep finds those that have, and flips start from them. After the first call, which looks at all edges, the
+// Only edges of faces that are new or have a moved corner can have stopped being locally Delaunay. Parallel
+// sweeps find those that have, and flips start from them. After the first call, which looks at all edges, the
 // cost is that of the changed faces and of the flips, and a comparison per vertex and face. All of the mesh
 // is triangulated so, padding included: it is the constrained Delaunay triangulation of all vertices, those
 // of the frame with them, and the domain's part of it that of the domain, as constrained edges separate the
@@ -23,13 +23,16 @@ class DelaunayUpkeep : public QualityPass {
   void find_changed_faces(const Mesh& mesh, std::span<const Point> before,
                           std::span<const RegionRecord> replaced);
   void find_wrong_edges(const Mesh& mesh);
-  void judge_sides(const Mesh& mesh, int face);
+  void bound_angles(const Mesh& mesh, int face);
+  bool needs_judgement(int edge);
 
   DelaunayFlipping flipping_;
   std::vector<char> has_moved_;    // per vertex
   std::vector<char> has_changed_;  // per face: is new or has a moved corner
-  std::vector<char> is_wrong_;     // per edge: not locally Delaunay
-  std::vector<int> wrong_;         // these edges, ascending
+  std::vector<float>
+      cotangent_;               // per half-edge of a changed face: bound of that across from it; else unknown
+  std::vector<char> is_wrong_;  // per edge: not locally Delaunay
+  std::vector<int> wrong_;      // these edges, ascending
 };
 
 }  // namespace kinemesh
