@@ -1,6 +1,7 @@
 #include "core/face_minima.h"
 
 #include <algorithm>
+#include <new>
 
 #include "core/face_sweep.h"
 #include "core/measure.h"
@@ -63,12 +64,18 @@ Minima FaceMinima::update(const Mesh& mesh) {
   unknown_.clear();
   for (std::size_t s = 0; s < is_known_.size(); ++s)
     if (!is_known_[s]) unknown_.push_back(static_cast<int>(s));
-  parallel_parts(static_cast<int>(unknown_.size()), grain, [&](int, int begin, int end) {
+  const int n = static_cast<int>(unknown_.size());
+  const auto measure = [&](int, int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const Sight sight = look_at_stretch(mesh, unknown_[i]);
       set(unknown_[i], {sight.twice_area, sight.tangent}, mesh);
     }
-  });
+  };
+  try {
+    parallel_parts(n, grain, measure);
+  } catch (const std::bad_alloc&) {  // of TBB
+    measure(0, 0, n);
+  }
   Minima all;
   for (const Minima& minima : minima_) all = smaller(all, minima);
   return all;

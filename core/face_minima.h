@@ -29,7 +29,7 @@ class FaceMinima {
   void outdate(std::span<const int> faces);
 
   // Measures what is not known, in all threads; the result does not depend on their number, nor on what was
-  // known.
+  // known. Takes no memory, and does with one thread where TBB has none left.
   Minima update(const Mesh& mesh);
 
  private:

@@ -8,10 +8,8 @@ namespace {
 static_assert(sizeof(Point) == 2 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(int));
 
 SweepKernel* widest_kernel() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx")) return sweep_by_four;
-#endif
-  return sweep_by_two;
+  SweepKernel* const wide = sweep_by_four();
+  return wide ? wide : sweep_by_two;
 }
 
 Sight look(const Mesh& mesh, const Triangle* triangles, const Triangle* ahead) {

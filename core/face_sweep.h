@@ -17,8 +17,8 @@ inline int n_stretches(int n_faces) {
 // Padding included. Bits beyond the last face are 0. To the same bits on every machine.
 Sight look_at_stretch(const Mesh& mesh, int stretch);
 
-// Asks for the corners of a face that comes a little after this one. The first follows by itself, since faces
-// are in the order of their lowest vertex.
+// Asks for the corners of a face that comes a little after this one. The first is mostly near
+// that of the face before, since faces are in the order of their lowest vertex.
 inline void fetch_ahead(std::span<const Triangle> triangles, std::span<const Point> positions, int face) {
   constexpr std::size_t ahead = 64;
   const auto& t = triangles[std::min(face + ahead, triangles.size() - 1)];

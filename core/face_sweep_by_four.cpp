@@ -1,5 +1,7 @@
-// Compiled for machines with AVX where the compiler can.
+// Compiled for machines with AVX, or empty.
 #include "core/face_sweep_lanes.h"
+
+#ifdef __AVX__
 
 namespace kinemesh {
 namespace {
@@ -25,8 +27,16 @@ struct Four {
 
 }  // namespace
 
-Sight sweep_by_four(const double* positions, const int* triangles, const int* ahead) {
-  return sweep<Four>(positions, triangles, ahead);
+SweepKernel* sweep_by_four() {
+  return __builtin_cpu_supports("avx") ? sweep<Four> : nullptr;
 }
 
 }  // namespace kinemesh
+
+#else
+
+kinemesh::SweepKernel* kinemesh::sweep_by_four() {
+  return nullptr;
+}
+
+#endif

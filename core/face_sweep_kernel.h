@@ -18,6 +18,7 @@ struct Sight {
 // positions: x, y, x, y, ...; triangles: 64, of three numbers of positions each; ahead: as many, to be on their
 // way from memory meanwhile. The same bits from both, two or four faces at a time.
 using SweepKernel = Sight(const double* positions, const int* triangles, const int* ahead);
-SweepKernel sweep_by_two, sweep_by_four;
+SweepKernel sweep_by_two;
+SweepKernel* sweep_by_four();  // null where compiler or machine have no AVX
 
 }  // namespace kinemesh

@@ -69,7 +69,7 @@ Sight sweep(const double* positions, const int* triangles, const int* ahead) {
   Sweep<Lanes> faces;
   std::uint64_t doubtful = 0;
   for (int f = 0; f < stretch_faces; f += Lanes::faces) {
-    // The first corner follows by itself, since faces are in the order of their lowest vertex.
+    // First corners are mostly near each other, since faces are in the order of their lowest vertex.
     for (int i = f; i < f + Lanes::faces; ++i) {
       __builtin_prefetch(positions + 2 * ahead[3 * i + 1]);
       __builtin_prefetch(positions + 2 * ahead[3 * i + 2]);

@@ -48,8 +48,8 @@ double twice_area(const std::array<Point, 3>& p) {
 // uu - uv and vv - uv. Twice the area is the cross product of any two.
 double tangent_of_smallest_angle(const std::array<Point, 3>& p) {
   const Point u = p[0] - p[2], v = p[1] - p[2];
-  const double cross = twice_area(p), uv = dot(u, v);
-  return cross > 0.0 ? cross / std::max(uv, std::max(dot(u, u), dot(v, v)) - uv) : 0.0;
+  const double cross = twice_area(p), uv = dot(u, v), far = std::max(dot(u, u), dot(v, v)) - uv;
+  return cross > 0.0 ? cross / (uv > far ? uv : far) : 0.0;  // as a sweep has it, what overflows included
 }
 
 Measures measure(const Mesh& mesh) {

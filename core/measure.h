@@ -7,6 +7,7 @@
 
 namespace kinemesh {
 
+// Faces so large that products of their sides overflow count for nothing.
 struct Measures {
   double area = 0.0;           // of the domain: sum of the faces' signed areas
   double min_area = 0.0;       // smallest signed face area

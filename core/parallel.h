@@ -21,7 +21,7 @@ inline int n_parts(int n, int grain) {
 
 // Calls body(part, begin, end), begin to end out of 0 to n, for each part in all threads. The parts depend on
 // n and grain only, so that what is gathered by part and put together in their order does not depend on the
-// number of threads. Takes no memory. What bodies have written can be read afterwards: TBB sees to that; the
+// number of threads. Takes no memory but what TBB takes for itself. What bodies have written can be read afterwards: TBB sees to that; the
 // two counters say it to the thread sanitizer, which does not see into TBB.
 template <class Body>
 void parallel_parts(int n, int grain, const Body& body) {

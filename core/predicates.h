@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/orientation_filter.h"
 #include "core/types.h"

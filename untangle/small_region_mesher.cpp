@@ -250,6 +250,7 @@ bool SmallRegionMesher::split_side(int side, int vertex) {
 
 // Each edge is looked at once, and again when a face beside it has become another [Lawson 1977].
 void SmallRegionMesher::flip_to_delaunay() {
+  suspects_.clear();  // an exception may have left some behind
   for (int side = 0; side < 3 * n_new_; ++side) {
     if (across_[side] > side) suspects_.push_back(side);
   }

@@ -1,4 +1,4 @@
-// New upright faces for up to a hundred faces or so: what nearly every region of a step is.
+// New upright faces for up to 128 faces: what nearly every region of a step is.
 #pragma once
 
 #include <array>
@@ -12,8 +12,9 @@
 namespace kinemesh {
 
 // The constrained Delaunay triangulation of a simple polygon and the vertices inside it: ears are clipped,
-// vertices inserted, edges flipped, all with exact signs and within fixed arrays. Quadratic, but in tests of a few
-// instructions each, so that this takes a fraction of the time a general triangulator needs.
+// vertices inserted, edges flipped, all with exact signs and within fixed arrays. Quadratic, cubic at
+// worst, but in tests of a few instructions each, so that this takes a fraction of the time a general
+// triangulator needs.
 class SmallRegionMesher {
  public:
   // False where RegionMesher has to look: more than max_faces faces, a border that is not one loop or touches
