@@ -7,35 +7,43 @@ namespace {
 
 static_assert(sizeof(Point) == 2 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(int));
 
-SweepKernel* widest_kernel() {
-  SweepKernel* const wide = sweep_by_four();
-  return wide ? wide : sweep_by_two;
-}
-
-Sight look(const Mesh& mesh, const Triangle* triangles, const Triangle* ahead) {
-  static SweepKernel* const kernel = widest_kernel();
+template <Look look>
+Sight sweep(const Mesh& mesh, const Triangle* triangles, const Triangle* ahead) {
+  static SweepKernel* const wide = sweep_by_four(look);
+  static SweepKernel* const kernel = wide ? wide : sweep_by_two(look);
   return kernel(&mesh.positions().data()->x, triangles->data(), ahead->data());
 }
 
 // Filled up with the last face.
-Sight look_at_rest(const Mesh& mesh, std::span<const Triangle> rest) {
+template <Look look>
+Sight sweep_rest(const Mesh& mesh, std::span<const Triangle> rest) {
   std::array<Triangle, stretch_faces> triangles;
   triangles.fill(rest.back());
   std::copy(rest.begin(), rest.end(), triangles.begin());
-  Sight sight = look(mesh, triangles.data(), triangles.data());
+  Sight sight = sweep<look>(mesh, triangles.data(), triangles.data());
   sight.doubtful &= (std::uint64_t{1} << rest.size()) - 1;
   return sight;
+}
+
+template <Look look>
+Sight sweep_stretch(const Mesh& mesh, int stretch) {
+  const auto all = mesh.triangles();
+  const auto first = static_cast<std::size_t>(stretch) * stretch_faces;
+  if (first + stretch_faces > all.size()) return sweep_rest<look>(mesh, all.subspan(first));
+  constexpr std::size_t ahead = 4 * stretch_faces;  // the nearer ones come too late
+  const bool goes_on = first + ahead + stretch_faces <= all.size();
+  const Triangle* const triangles = &all[first];
+  return sweep<look>(mesh, triangles, goes_on ? triangles + ahead : triangles);
 }
 
 }  // namespace
 
 Sight look_at_stretch(const Mesh& mesh, int stretch) {
-  const auto all = mesh.triangles();
-  const auto first = static_cast<std::size_t>(stretch) * stretch_faces;
-  if (first + stretch_faces > all.size()) return look_at_rest(mesh, all.subspan(first));
-  const bool is_next_whole = first + 2 * stretch_faces <= all.size();
-  const Triangle* const triangles = &all[first];
-  return look(mesh, triangles, is_next_whole ? triangles + stretch_faces : triangles);
+  return sweep_stretch<Look::JudgeAndMeasure>(mesh, stretch);
+}
+
+std::uint64_t doubtful_in_stretch(const Mesh& mesh, int stretch) {
+  return sweep_stretch<Look::Judge>(mesh, stretch).doubtful;
 }
 
 }  // namespace kinemesh

@@ -17,6 +17,9 @@ inline int n_stretches(int n_faces) {
 // Padding included. Bits beyond the last face are 0. To the same bits on every machine.
 Sight look_at_stretch(const Mesh& mesh, int stretch);
 
+// The same without measuring: what is doubtful.
+std::uint64_t doubtful_in_stretch(const Mesh& mesh, int stretch);
+
 // Asks for the corners of a face that comes a little after this one. The first is mostly near
 // that of the face before, since faces are in the order of their lowest vertex.
 inline void fetch_ahead(std::span<const Triangle> triangles, std::span<const Point> positions, int face) {

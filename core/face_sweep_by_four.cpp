@@ -27,15 +27,15 @@ struct Four {
 
 }  // namespace
 
-SweepKernel* sweep_by_four() {
-  return __builtin_cpu_supports("avx") ? sweep<Four> : nullptr;
+SweepKernel* sweep_by_four(Look look) {
+  return __builtin_cpu_supports("avx") ? sweep_with<Four>(look) : nullptr;
 }
 
 }  // namespace kinemesh
 
 #else
 
-kinemesh::SweepKernel* kinemesh::sweep_by_four() {
+kinemesh::SweepKernel* kinemesh::sweep_by_four(Look) {
   return nullptr;
 }
 

@@ -19,8 +19,8 @@ struct Two {
 
 }  // namespace
 
-Sight sweep_by_two(const double* positions, const int* triangles, const int* ahead) {
-  return sweep<Two>(positions, triangles, ahead);
+SweepKernel* sweep_by_two(Look look) {
+  return sweep_with<Two>(look);
 }
 
 }  // namespace kinemesh

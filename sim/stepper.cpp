@@ -9,10 +9,13 @@
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/measure.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 
 namespace kinemesh {
 namespace {
+
+constexpr int grain = 16384;  // vertices that are worth a task
 
 // Shortest text that reads back as the same number.
 std::string exact_text(double value) {
@@ -35,9 +38,8 @@ bool is_finite(const Point& p) {
 template <class Describe>
 std::optional<Defect> non_finite_defect(const Mesh& mesh, std::span<const Point> next,
                                         const Describe& describe) {
-  const auto bad = std::find_if_not(next.begin(), next.end(), is_finite);
-  if (bad == next.end()) return std::nullopt;
-  const int vertex = static_cast<int>(bad - next.begin());
+  const int vertex = find_first(mesh.n_vertices(), grain, [&](int v) { return !is_finite(next[v]); });
+  if (vertex == none) return std::nullopt;
   Defect defect;
   defect.kind = DefectKind::NonFinitePosition;
   defect.vertices = {mesh.user_vertex(vertex)};
@@ -103,7 +105,8 @@ Stepper::Stepper(Mesh&& mesh, const StepperOptions& options, double time, int st
   if (std::isfinite(max_region_share_)) tracker_ = std::make_unique<ChangeTracker>(mesh_);
 }
 
-// `move` writes the positions at end_time over those of now and names what made one of them not finite.
+// `move` writes the positions at end_time and names what made one of them not finite. On an exception nothing
+// is known of the faces.
 template <class Move>
 StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   const Stopwatch clock;
@@ -112,11 +115,12 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   outcome.record.time = end_time;
   outcome.record.dt = dt;
 
-  minima_.reset(mesh_.n_faces());
-  next_.assign(mesh_.positions().begin(), mesh_.positions().end());
+  if (!knows_minima_) minima_.reset(mesh_.n_faces());
+  knows_minima_ = false;
   outcome.defect = move(std::span<Point>(next_));
   if (!outcome.defect) {
     follow(mesh_, next_);
+    moved_.find(mesh_.positions(), next_);
     outcome.defect = hull_defect(mesh_, next_);
   }
   outcome.record.move_ms = clock.milliseconds();
@@ -139,6 +143,7 @@ void Stepper::repair_moved(StepOutcome& outcome) {
   RepairOptions options = repair_;
   options.before = next_;
   options.minima = &minima_;
+  options.moved = &moved_;
   RepairOutcome repaired = strategy_->repair(mesh_, options);
   outcome.record.repair = std::move(repaired.record);
   outcome.defect = std::move(repaired.defect);
@@ -180,13 +185,14 @@ void Stepper::measure(StepOutcome& outcome) {
   const Stopwatch clock;
   StepRecord& record = outcome.record;
   if (!outcome || strategy_->moves_vertices() || quality_->moves_vertices()) minima_.reset(mesh_.n_faces());
-  for (const RegionRecord& region : record.repair.regions) minima_.outdate(region.faces);
+  for (const RegionRecord& region : record.repair.regions) minima_.outdate({region.faces.data(), region.faces.size()});
   minima_.outdate(quality_->flipped_faces());
   const Minima minima = minima_.update(mesh_);
   record.vertices = mesh_.n_user_vertices();
   record.faces = mesh_.n_user_faces();
   record.min_angle_deg = degrees(minima.tangent);
   record.min_area = 0.5 * minima.twice_area;
+  knows_minima_ = true;
   record.measure_ms = clock.milliseconds();
 }
 
@@ -233,6 +239,7 @@ StepOutcome Stepper::step_by(std::span<const Point> positions, double end_time, 
     throw InputError(std::to_string(positions.size()) + " positions, " +
                      std::to_string(mesh_.n_user_vertices()) + " expected");
   return advance(end_time, dt, [&](std::span<Point> next) {
+    std::ranges::copy(mesh_.positions(), next.begin());
     for (int v = 0; v < mesh_.n_vertices(); ++v)
       if (const int user = mesh_.user_vertex(v); user != none) next[v] = positions[user];
     return non_finite_defect(mesh_, next,

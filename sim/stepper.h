@@ -125,6 +125,8 @@ class Stepper {
   std::unique_ptr<QualityPass> quality_;
   RepairOptions repair_;
   FaceMinima minima_;
+  bool knows_minima_ = false;  // of the mesh as it is
+  MovedBlocks moved_;          // by the step
   double max_region_share_;
   std::vector<Point> next_;       // positions after the step, then before it
   std::vector<Point> positions_;  // what positions() hands out; empty before

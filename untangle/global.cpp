@@ -23,7 +23,7 @@ std::optional<RepairOutcome> GlobalUntangling::repair_within(const Limits& limit
   RepairOutcome outcome;
   auto& record = outcome.record;
   const Stopwatch detecting;
-  const auto tangles = detect(mesh, options.minima);
+  const auto tangles = detect(mesh, options.minima, options.moved);
   record.inverted = static_cast<int>(tangles.inverted.size());
   record.degenerate = static_cast<int>(tangles.flat.size());
   record.detect_ms = detecting.milliseconds();
@@ -91,11 +91,18 @@ void GlobalUntangling::splice(Mesh& mesh, RepairRecord& record) {
 
 // Those that have not been absorbed.
 std::vector<int> GlobalUntangling::regions_by_seed() {
-  const auto record = [&](int region) -> const RegionRecord& { return repair_.patch(region).record; };
-  std::vector<int> regions;
+  struct Seeded {
+    unsigned seed;  // none is the largest
+    int region;
+    auto operator<=>(const Seeded&) const = default;
+  };
+  std::vector<Seeded> seeded;
   for (int region = 0; region < repair_.regions().count(); ++region)
-    if (!record(region).faces.empty()) regions.push_back(region);
-  std::ranges::stable_sort(regions, is_seeded_before, record);
+    if (const auto& record = repair_.patch(region).record; !record.faces.empty())
+      seeded.push_back({static_cast<unsigned>(record.seed), region});
+  std::ranges::sort(seeded);
+  std::vector<int> regions(seeded.size());
+  std::ranges::transform(seeded, regions.begin(), &Seeded::region);
   return regions;
 }
 

@@ -1,6 +1,6 @@
 #include "untangle/hole.h"
 
-#include <algorithm>
+#include "untangle/sort_distinct.h"
 
 namespace kinemesh {
 
@@ -22,7 +22,7 @@ void Hole::dig(const Mesh& mesh, const FaceSets& sets, int set) {
       }
     }
   }
-  std::sort(inner.begin(), inner.end());
+  sort_distinct(inner, mesh.n_edges());
 }
 
 }  // namespace kinemesh

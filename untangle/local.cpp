@@ -47,7 +47,7 @@ std::vector<int> seeds_by_user_number(const Mesh& mesh, const Tangles& tangles) 
 
 RepairOutcome LocalUntangling::repair(Mesh& mesh, const RepairOptions& options) {
   const Stopwatch detecting;
-  const auto tangles = detect(mesh, options.minima);
+  const auto tangles = detect(mesh, options.minima, options.moved);
   const double detect_ms = detecting.milliseconds();
   const auto components = inverted_components(mesh, tangles.inverted);
   auto outcome = repair_seeds(mesh, seeds_by_user_number(mesh, tangles), options);

@@ -166,7 +166,7 @@ RepairOutcome VertexOptimization::repair(Mesh& mesh, const RepairOptions& option
   RepairOutcome outcome;
   auto& record = outcome.record;
   const Stopwatch detecting;
-  const auto tangles = detect(mesh, options.minima);
+  const auto tangles = detect(mesh, options.minima, options.moved);
   record.inverted = static_cast<int>(tangles.inverted.size());
   record.degenerate = static_cast<int>(tangles.flat.size());
   record.components = inverted_components(mesh, tangles.inverted).count;

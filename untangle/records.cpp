@@ -7,6 +7,7 @@
 
 #include "core/predicates.h"
 #include "untangle/detect.h"
+#include "untangle/sort_distinct.h"
 
 namespace kinemesh {
 namespace {
@@ -75,7 +76,7 @@ int total(const std::vector<RegionRecord>& regions, const Member& member) {
 
 RegionRecord describe_region(const Mesh& mesh, const Hole& region) {
   RegionRecord record;
-  record.faces = region.faces;
+  record.faces.assign(region.faces.begin(), region.faces.end());
   const Survey found = survey(mesh, region.faces);
   record.seed = seed_of(mesh, found);
   record.inverted = static_cast<int>(found.inverted.size());
@@ -89,7 +90,7 @@ RegionRecord describe_region(const Mesh& mesh, const Hole& region) {
   for (const int face : record.faces) {
     if (!mesh.is_padding(face)) record.user_faces.push_back(mesh.user_face(face));
   }
-  std::sort(record.user_faces.begin(), record.user_faces.end());
+  sort_distinct(record.user_faces, mesh.n_faces());
   return record;
 }
 

@@ -7,6 +7,7 @@
 #include "core/frame.h"
 #include "core/predicates.h"
 #include "core/winding.h"
+#include "untangle/sort_distinct.h"
 
 namespace kinemesh {
 namespace {
@@ -62,7 +63,7 @@ void RegionMesher::add_vertices() {
       local_of_[v] = 0;
     }
   }
-  std::sort(vertices_.begin(), vertices_.end());
+  sort_distinct(vertices_, mesh_->n_vertices());
   points_.clear();
   for (int i = 0; i < static_cast<int>(vertices_.size()); ++i) {
     local_of_[vertices_[i]] = i;

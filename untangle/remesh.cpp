@@ -12,7 +12,7 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   RepairOutcome outcome;
   auto& record = outcome.record;
   const Stopwatch detecting;
-  const auto tangles = detect(mesh, options.minima);
+  const auto tangles = detect(mesh, options.minima, options.moved);
   record.inverted = static_cast<int>(tangles.inverted.size());
   record.degenerate = static_cast<int>(tangles.flat.size());
   record.detect_ms = detecting.milliseconds();

@@ -1,6 +1,7 @@
 // The ways to make a moved mesh valid again, behind one interface and chosen by name.
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,18 +16,21 @@
 
 namespace kinemesh {
 
+// Numbers of a region's faces. Those of most regions, which are small, take no memory of their own.
+using RegionFaces = boost::container::small_vector<int, 12>;
+
 // One replaced region. Counts include padding unless said otherwise.
 struct RegionRecord {
   int seed = none;         // user's number: `local` the face it started from, others the smallest inverted or
                            // flat one; none if it is padding, or all of them are
-  std::vector<int> faces;  // R*: the mesh's faces (not the user's numbers), ascending, as they were when it
+  RegionFaces faces;       // R*: the mesh's faces (not the user's numbers), ascending, as they were when it
                            // was found; their handles now hold the new faces
-  std::vector<int> user_faces;  // the domain's faces among them, user's numbers, ascending
-  std::vector<int> kept;        // those of `faces` that were not replaced, ascending; none unless retained
-  int inverted = 0;             // inverted faces in it
-  int degenerate = 0;           // flat faces in it
-  int components = 0;           // inverted components
-  int explored = 0;             // faces read as candidates; equals faces.size()
+  RegionFaces user_faces;  // the domain's faces among them, user's numbers, ascending
+  std::vector<int> kept;   // those of `faces` that were not replaced, ascending; none unless retained
+  int inverted = 0;        // inverted faces in it
+  int degenerate = 0;      // flat faces in it
+  int components = 0;      // inverted components
+  int explored = 0;        // faces read as candidates; equals faces.size()
   int border_edges = 0;
   int crease_edges = 0;        // edges between an inverted and an upright face
   int gamma_first_stable = 1;  // signed cover when extending first came to rest [Agarwal 2008, §4]
@@ -73,8 +77,10 @@ struct RepairOptions {
   // Where the vertices came from, by the mesh's numbers: the mesh was valid there. Empty if nobody knows.
   std::span<const Point> before{};
   // Where the faces' areas and angles go that detection sees before anything is rewritten; nobody wants them if
-  // null.
+  // null. What they know already must be true of the mesh before the move; where nothing has moved it spares
+  // detection a look.
   FaceMinima* minima = nullptr;
+  const MovedBlocks* moved = nullptr;  // anything may have moved if null
 };
 
 class Strategy {

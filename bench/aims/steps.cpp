@@ -55,16 +55,24 @@ std::vector<Triangle> sorted_triangles(const Mesh& mesh) {
 class Contestant {
  public:
   Contestant(const std::string& strategy, const std::string& quality, const Move& move)
-      : move_(move), strategy_(make_strategy(strategy)), quality_(make_quality(quality, move.mesh)) {}
+      : move_(move), strategy_(make_strategy(strategy)), quality_(make_quality(quality, move.mesh)) {
+    minima_before_.reset(move.mesh.n_faces());
+    minima_before_.update(move.mesh);
+    moved_.find(move.mesh.positions(), move.mesh.positions());
+    minima_before_.outdate_moved(move.mesh, &moved_);  // a step in which nothing moves
+    moved_.find(move.mesh.positions(), move.positions);
+  }
 
   void step() {
     Mesh mesh = moved(move_);
+    minima_ = minima_before_;
     const Stopwatch stepping;
-    const auto outcome = strategy_->repair(mesh, {.before = move_.mesh.positions(), .minima = &minima_});
+    const auto outcome = strategy_->repair(
+        mesh, {.before = move_.mesh.positions(), .minima = &minima_, .moved = &moved_});
     require_valid(outcome);
     quality_->improve(mesh, move_.mesh.positions(), outcome.record.regions);
     const Stopwatch measuring;
-    for (const auto& region : outcome.record.regions) minima_.outdate(region.faces);
+    for (const auto& region : outcome.record.regions) minima_.outdate({region.faces.data(), region.faces.size()});
     minima_.outdate(quality_->flipped_faces());
     min_angle_deg_ = degrees(minima_.update(mesh).tangent);
     measuring_.push_back(measuring.milliseconds());
@@ -86,7 +94,8 @@ class Contestant {
   const Move& move_;
   std::unique_ptr<Strategy> strategy_;
   std::unique_ptr<QualityPass> quality_;
-  FaceMinima minima_;
+  FaceMinima minima_before_, minima_;  // of the mesh before the move, which is where each step starts
+  MovedBlocks moved_;
   std::vector<double> step_, measuring_, triangulating_;  // ms
   double replaced_ = 0.0, min_angle_deg_ = 0.0;
   std::vector<Triangle> triangles_;  // after the last step

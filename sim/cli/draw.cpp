@@ -102,7 +102,7 @@ RegionRecord repair_again(Mesh& mesh, const ReportedRegions& reported, int numbe
   const RepairOutcome outcome = is_local ? LocalUntangling().repair_seeds(mesh, seeds, {})
                                          : make_strategy(reported.strategy)->repair(mesh, {});
   const auto& regions = outcome.record.regions;
-  const auto same = [&](const RegionRecord& r) { return r.user_faces == reported.faces[number]; };
+  const auto same = [&](const RegionRecord& r) { return std::ranges::equal(r.user_faces, reported.faces[number]); };
   const auto found = std::ranges::find_if(regions, same);
   if (!outcome || found == regions.end())
     throw InputError(arguments.region, 0, "is not the report of untangling " + arguments.mesh.path);
@@ -116,7 +116,7 @@ std::string figure_of_region(const DrawArguments& arguments) {
   const int number = chosen(arguments, reported);
   Mesh after = before;
   const RegionRecord region = repair_again(after, reported, number, arguments);
-  draw::RegionFigure figure{before, after, region.faces};
+  draw::RegionFigure figure{before, after, {region.faces.begin(), region.faces.end()}};
   const int seed = reported.seeds[number];
   figure.seed = seed == none ? none : before.faces_in_user_order()[seed];
   figure.is_local = reported.strategy == "local";

@@ -62,9 +62,12 @@ void expect_equal(const Sight& seen, const Sight& expected, int scale) {
 
 // Both kernels, where the machine has both.
 void expect_seen(const Stretch& stretch, int scale) {
-  const Sight expected = plain_sight(stretch);
-  expect_equal(stretch.seen_by(sweep_by_two), expected, scale);
-  if (SweepKernel* const wide = sweep_by_four()) expect_equal(stretch.seen_by(wide), expected, scale);
+  const Sight measured = plain_sight(stretch), judged{measured.doubtful, INFINITY, INFINITY};
+  for (const auto kernels : {sweep_by_two, sweep_by_four}) {
+    if (!kernels(Look::Judge)) continue;
+    expect_equal(stretch.seen_by(kernels(Look::Judge)), judged, scale);
+    expect_equal(stretch.seen_by(kernels(Look::JudgeAndMeasure)), measured, scale);
+  }
 }
 
 TEST(FaceSweep, SeesWithAnyWidthWhatIsThereFaceByFace) {

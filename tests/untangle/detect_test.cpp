@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/face_sweep.h"
 #include "tests/core/sample_meshes.h"
 #include "tests/untangle/oracle.h"
 #include "tests/untangle/repairs.h"
@@ -114,6 +115,53 @@ TEST(Detect, EqualsBruteForceWithAnyNumberOfThreads) {
     EXPECT_EQ(found.inverted, inverted);
     EXPECT_EQ(found.flat, flat);
   }
+}
+
+int count_upright(FaceMinima minima, const Mesh& mesh, const MovedBlocks& moved) {
+  minima.outdate_moved(mesh, &moved);
+  int upright = 0;
+  for (int stretch = 0; stretch < n_stretches(mesh.n_faces()); ++stretch)
+    upright += minima.is_upright(stretch);
+  return upright;
+}
+
+// Here and there vertices move and edges are flipped, and what has become inverted stays so for a while.
+TEST(Detect, LeavesAloneWhatLiesStill) {
+  Random random(7);
+  Mesh mesh = build_mesh(random_grid(90, 90, random), {.frame = 0.25, .fixed = {}});
+  for (auto& p : mesh.positions()) p = snapped(p * (1.0 / 16));
+  FaceMinima minima;
+  MovedBlocks moved;
+  int left_alone = 0, tangled = 0;
+  for (int round = 0; round < 300; ++round) {
+    const std::vector<Point> before(mesh.positions().begin(), mesh.positions().end());
+    const int first = random.below(mesh.n_vertices());
+    for (int v = first; v < std::min(first + 5, mesh.n_vertices()); ++v)
+      mesh.positions()[v] += snapped({random.between(-0.05, 0.05), random.between(-0.05, 0.05)});
+    moved.find(before, mesh.positions());
+    left_alone += count_upright(minima, mesh, moved);
+    const auto found = detect(mesh, &minima, &moved);
+    ASSERT_EQ(found.inverted, oracle::inverted(mesh));
+    ASSERT_EQ(found.flat, oracle::flat(mesh));
+    tangled += !found.empty();
+    FaceMinima anew;
+    ASSERT_TRUE(detect(mesh, &anew).inverted == found.inverted);
+    ASSERT_EQ(minima.update(mesh).twice_area, anew.update(mesh).twice_area);
+    ASSERT_EQ(minima.update(mesh).tangent, anew.update(mesh).tangent);
+    const int edge = random.below(mesh.n_edges());
+    if (mesh.is_flippable(edge)) {
+      mesh.flip(edge);
+      minima.outdate(std::array{mesh.face_of(2 * edge), mesh.face_of(2 * edge + 1)});
+    }
+    if (random.one_in(3)) {  // back to where they came from
+      const std::vector<Point> there(mesh.positions().begin(), mesh.positions().end());
+      std::ranges::copy(before, mesh.positions().begin());
+      moved.find(there, mesh.positions());
+      minima.outdate_moved(mesh, &moved);
+    }
+  }
+  EXPECT_GT(tangled, 250);
+  EXPECT_GT(left_alone, 300 * n_stretches(mesh.n_faces()) / 2);
 }
 
 TEST(Detect, MissesNoFaceOfALargeMesh) {

@@ -1,6 +1,7 @@
 // The kinetic strategy: valid wherever a valid mesh exists, by flips that follow the motion.
 #include "untangle/kinetic.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -149,7 +150,7 @@ TEST(Kinetic, FlipsTheEdgeThatIsCrossed) {
   EXPECT_EQ(kinetic.counts().flips, 1);
   ASSERT_EQ(outcome.record.regions.size(), 1u);
   const auto& region = outcome.record.regions[0];
-  EXPECT_EQ(region.user_faces, (std::vector<int>{1, 7}));
+  EXPECT_THAT(region.user_faces, testing::ElementsAre(1, 7));
   EXPECT_EQ(region.seed, 1);
   EXPECT_EQ(region.inverted, 1);
   EXPECT_FALSE(region.fallback);

@@ -106,7 +106,7 @@ RegionCounts count(const Mesh& mesh, const std::vector<int>& faces) {
 }
 
 std::string region_wrong(const Mesh& before, const RegionRecord& region) {
-  const auto counts = count(before, region.faces);
+  const auto counts = count(before, {region.faces.begin(), region.faces.end()});
   if (region.seed != counts.seed)
     return "seed is " + to_string(region.seed) + ", not " + to_string(counts.seed);
   if (region.inverted != counts.inverted) return "inverted faces miscounted";
@@ -213,7 +213,7 @@ std::string contract_broken(const Mesh& before, const Mesh& after, const RepairO
 
 std::string regions_wrong(const Mesh& before, const RepairRecord& record) {
   std::vector<std::vector<int>> found;
-  for (const auto& region : record.regions) found.push_back(region.faces);
+  for (const auto& region : record.regions) found.emplace_back(region.faces.begin(), region.faces.end());
   std::sort(found.begin(), found.end());
   if (found != oracle::conflict_pieces(before)) return "the regions are not the pieces of phi(I)*";
   if (!seeded_in_order(record.regions)) return "the regions are not in the order of their seeds";

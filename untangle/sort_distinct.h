@@ -1,0 +1,24 @@
+// Sorting numbers of a mesh's faces, edges or vertices, be they few of them or all.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace kinemesh {
+
+// Ascending. Pre: each from 0 and below n, and there once.
+template <class Numbers>
+void sort_distinct(Numbers& numbers, int n) {
+  if (numbers.size() < static_cast<std::size_t>(n) / 32) {
+    std::sort(numbers.begin(), numbers.end());
+    return;
+  }
+  std::vector<bool> is_there(n, false);
+  for (const int number : numbers) is_there[number] = true;
+  auto next = numbers.begin();
+  for (int number = 0; number < n; ++number)
+    if (is_there[number]) *next++ = number;
+}
+
+}  // namespace kinemesh
