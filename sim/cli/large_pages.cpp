@@ -1,10 +1,13 @@
 // Operator new for a whole program: big arrays come in large pages where the system has them. A mesh is read in
 // no order where it is tangled; without large pages the table that leads to them misses as often as the
-// cache does. Libraries do not link this: who embeds one decides for himself (docs/embedding.md).
+// cache does. Libraries do not link this: who embeds one decides for himself (docs/embedding.md). Sanitizers bring
+// an operator new of their own, which has more to do.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -43,3 +46,5 @@ void operator delete(void* memory) noexcept {
 void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
+
+#endif
