@@ -63,6 +63,8 @@ kinemesh_status guarded(const Work& work) noexcept {
     return fail(KINEMESH_NO_VALID_MESH, error.what());
   } catch (const InputError& error) {
     return fail(KINEMESH_BAD_INPUT, error.what());
+  } catch (const ResourceError& error) {
+    return fail(KINEMESH_NO_RESOURCES, error.what());
   } catch (const Vetoed& error) {
     return fail(KINEMESH_VETOED, error.what());
   } catch (const std::bad_alloc&) {

@@ -1,4 +1,5 @@
-// A caller's or a file's mistake. Expected outcomes (no valid mesh exists) are results, not exceptions: untangle/failure.h.
+// Whose mistake an exception is about. Expected outcomes (no valid mesh exists) are results, not exceptions:
+// core/defect.h.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +7,8 @@
 
 namespace kinemesh {
 
-// what() reads "FILE:LINE: what, and what was expected"; FILE and LINE are left out where they are not known.
+// A caller's or a file's mistake. what() reads "FILE:LINE: what, and what was expected"; FILE and LINE are left
+// out where they are not known.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& what) : std::runtime_error(what) {}
@@ -21,6 +23,13 @@ class InputError : public std::runtime_error {
  private:
   std::string file_;
   int line_ = 0;
+};
+
+// Nobody's mistake: the machine lacks what it takes, as on a full disk, at a limit of files or their size, where a
+// device fails. The same call may succeed later. what() names the file.
+class ResourceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 }  // namespace kinemesh

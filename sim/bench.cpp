@@ -145,11 +145,11 @@ std::vector<std::string> parts_of(const std::string& text) {
 
 }  // namespace
 
-std::optional<std::string> compare_strategies(const Scenario& scenario,
+std::optional<std::string> compare_strategies(const Scenario& scenario, SetUp made,
                                               std::span<const std::string> strategies,
                                               const std::function<void(const Round&)>& tell,
                                               const TangledMeshViewer& view) {
-  return Contest(scenario, strategies, set_up(scenario)).run(tell, view);
+  return Contest(scenario, strategies, std::move(made)).run(tell, view);
 }
 
 Sweep parse_sweep(const std::string& text) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/scenario.h"
+#include "sim/setup.h"
 #include "sim/stepper.h"
 
 namespace kinemesh {
@@ -30,9 +31,9 @@ using TangledMeshViewer = std::function<void(int step, const Mesh& tangled)>;
 // result; its own mesh differs from the others' by its connectivity, and in its positions if it moves vertices.
 // One that finds no valid mesh where another does goes on with a copy of the other's mesh; its round is not
 // accepted. Steps are timed in turn. Calls `view`, if there is one, before each step, `tell` for each round, and returns why it ended early, if it did: no strategy had
-// a valid mesh. Throws InputError for unknown strategies and for what set_up (sim/setup.h) refuses,
-// std::logic_error for a mesh that a strategy claims to be valid and is not.
-std::optional<std::string> compare_strategies(const Scenario& scenario,
+// a valid mesh. Throws InputError for unknown strategies, std::logic_error for a mesh that a strategy claims to be
+// valid and is not. made: of the scenario, by set_up (sim/setup.h).
+std::optional<std::string> compare_strategies(const Scenario& scenario, SetUp made,
                                               std::span<const std::string> strategies,
                                               const std::function<void(const Round&)>& tell,
                                               const TangledMeshViewer& view = {});

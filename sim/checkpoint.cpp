@@ -1,6 +1,7 @@
 #include "sim/checkpoint.h"
 
 #include "core/io/atomic_file.h"
+#include "core/io/file_error.h"
 #include "core/validate.h"
 #include "sim/mesh_members.h"
 
@@ -100,7 +101,7 @@ std::string offer(const fs::path& directory, const std::string& scenario) {
 void rename_file(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
-  if (error) throw InputError(to.string(), 0, "cannot be put in place: " + error.message());
+  if (error) io::fail(to, "cannot be put in place", error.value());
 }
 
 }  // namespace

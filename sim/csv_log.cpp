@@ -7,9 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
-#include "core/error.h"
+#include "core/io/file_error.h"
 
 namespace kinemesh {
 
@@ -40,9 +39,38 @@ std::string regions_csv_row(int step, int number, const RegionRecord& r) {
                      r.self_overlap ? 1 : 0, r.retries, r.centre.x, r.centre.y);
 }
 
+namespace {
+
+// The file is written in place: not where the bytes are another file's, too.
+void require_own_bytes(int descriptor, std::uint64_t length, const std::filesystem::path& path) {
+  struct stat status;
+  if (::fstat(descriptor, &status) != 0) io::fail(path, "cannot read", errno);
+  if (!S_ISREG(status.st_mode)) throw InputError(path.string(), 0, "is not a regular file");
+  if (status.st_nlink > 1)
+    throw InputError(path.string(), 0, "has other names, too (hard links), and would change under them");
+  if (static_cast<std::uint64_t>(status.st_size) < length)
+    throw InputError(
+        path.string(), 0,
+        fmt::format("{} bytes long, at least {} expected by the checkpoint", status.st_size, length));
+}
+
+int open_log(const std::filesystem::path& path, std::uint64_t length) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) io::fail(path, "cannot write", errno);
+  try {
+    require_own_bytes(descriptor, length, path);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  return descriptor;
+}
+
+}  // namespace
+
 LineFile::LineFile(const std::filesystem::path& path, std::string_view header)
-    : path_(path.string()),
-      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666)) {
+    : path_(path),
+      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) fail();
   try {
     write(header);
@@ -53,19 +81,10 @@ LineFile::LineFile(const std::filesystem::path& path, std::string_view header)
 }
 
 LineFile::LineFile(const std::filesystem::path& path, std::uint64_t length)
-    : path_(path.string()),
-      descriptor_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)),
-      length_(length) {
-  struct stat status;
-  const bool is_open = descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0;
-  const bool is_long_enough = is_open && static_cast<std::uint64_t>(status.st_size) >= length;
-  if (is_long_enough && ::ftruncate(descriptor_, static_cast<off_t>(length)) == 0) return;
+    : path_(path), descriptor_(open_log(path, length)), length_(length) {
+  if (::ftruncate(descriptor_, static_cast<off_t>(length)) == 0) return;
   const int error = errno;
-  if (descriptor_ >= 0) ::close(descriptor_);
-  if (is_open && !is_long_enough)
-    throw InputError(
-        path_, 0,
-        fmt::format("{} bytes long, at least {} expected by the checkpoint", status.st_size, length));
+  ::close(descriptor_);
   errno = error;
   fail();
 }
@@ -75,7 +94,7 @@ LineFile::~LineFile() {
 }
 
 void LineFile::fail() const {
-  throw InputError(path_, 0, std::string("cannot write: ") + std::strerror(errno));
+  io::fail(path_, "cannot write", errno);
 }
 
 void LineFile::write(std::string_view line) {
@@ -101,6 +120,11 @@ void LineFile::flush() {
 
 void LineFile::shorten(std::uint64_t length) noexcept {
   if (::ftruncate(descriptor_, static_cast<off_t>(length)) == 0) length_ = length;
+}
+
+void require_logs(const std::filesystem::path& directory, const LogLengths& lengths) {
+  ::close(open_log(directory / "steps.csv", lengths.steps));
+  ::close(open_log(directory / "regions.csv", lengths.regions));
 }
 
 StepLog::StepLog(const std::filesystem::path& directory)

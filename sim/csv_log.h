@@ -10,11 +10,11 @@
 
 namespace kinemesh {
 
-// A text file that grows by whole lines, each handed to the system when it is written. Errors are InputErrors
-// naming file and reason.
+// A text file that grows by whole lines, each handed to the system when it is written. Never writes through a
+// link of either kind. Errors are InputErrors and ResourceErrors naming file and reason.
 class LineFile {
  public:
-  LineFile(const std::filesystem::path& path, std::string_view header);  // replaces what is there
+  LineFile(const std::filesystem::path& path, std::string_view header);  // a new one; nothing may be there
   LineFile(const std::filesystem::path& path, std::uint64_t length);     // goes on behind so many bytes
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
@@ -28,7 +28,7 @@ class LineFile {
  private:
   [[noreturn]] void fail() const;
 
-  std::string path_;
+  std::filesystem::path path_;
   int descriptor_;
   std::uint64_t length_ = 0;
 };
@@ -36,6 +36,9 @@ class LineFile {
 struct LogLengths {
   std::uint64_t steps = 0, regions = 0;  // bytes
 };
+
+// Throws what going on with a folder's logs behind these lengths would throw, and changes nothing.
+void require_logs(const std::filesystem::path& directory, const LogLengths& lengths);
 
 // Numbers are the shortest decimals that read back as the same double, times of phases milliseconds with
 // three digits after the point.

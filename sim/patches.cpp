@@ -78,7 +78,10 @@ void add_positions(const StepChanges& changes, PatchesStep& step) {
   }
 }
 
-std::uint64_t length_up_to(const std::filesystem::path& file, int last) {
+}  // namespace
+
+std::uint64_t patches_length_up_to(const std::filesystem::path& directory, int last) {
+  const auto file = directory / "patches.bin";
   PatchesReader reader(file);
   if (last == 0) return reader.position();
   while (const auto step = reader.next())
@@ -87,14 +90,12 @@ std::uint64_t length_up_to(const std::filesystem::path& file, int last) {
                    "does not reach step " + std::to_string(last) + ", from which the run is to go on");
 }
 
-}  // namespace
-
 PatchesWriter::PatchesWriter(const std::filesystem::path& directory, const Mesh& initial)
     : file_(directory / "patches.bin", std::string(magic) + bytes_of(version) + block_of(start_of(initial))),
       before_(file_.length()) {}
 
-PatchesWriter::PatchesWriter(const std::filesystem::path& directory, int last)
-    : file_(directory / "patches.bin", length_up_to(directory / "patches.bin", last)),
+PatchesWriter::PatchesWriter(const std::filesystem::path& directory, std::uint64_t length)
+    : file_(directory / "patches.bin", length),
       before_(file_.length()) {}
 
 void PatchesWriter::note(const StepChanges& changes) {

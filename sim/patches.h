@@ -38,12 +38,16 @@ struct PatchesStep {
   std::vector<FacePatch> patches;
 };
 
+// How long a folder's patches.bin is up to the end of a step; reads all of it up to there. Throws InputError if the
+// step is not in it.
+std::uint64_t patches_length_up_to(const std::filesystem::path& directory, int step);
+
 class PatchesWriter {
  public:
-  PatchesWriter(const std::filesystem::path& directory, const Mesh& initial);  // replaces what is there
+  PatchesWriter(const std::filesystem::path& directory, const Mesh& initial);  // a new file
 
-  // Goes on behind step `last`, and drops what comes after it. Throws InputError if it is not there.
-  PatchesWriter(const std::filesystem::path& directory, int last);
+  // Goes on behind so many bytes, and drops what comes after them.
+  PatchesWriter(const std::filesystem::path& directory, std::uint64_t length);
 
   void note(const StepChanges& changes);  // an observer's: remembers the step, writes nothing
   void write();                           // what was noted last; whole, or InputError and nothing of it

@@ -5,6 +5,8 @@
 #include <exception>
 
 #include "core/io/atomic_file.h"
+#include "core/io/file_error.h"
+#include "core/io/folder_lock.h"
 #include "core/io/mesh_io.h"
 #include "core/measure.h"
 #include "core/mesh_state.h"
@@ -48,7 +50,27 @@ std::string last_mesh_name(const Scenario& scenario) {
   return "final" + (scenario.mesh.file.empty() ? ".su2" : scenario.mesh.file.extension().string());
 }
 
-// The steps of one run, and all it writes. Construction opens the files.
+// A run that goes on, and where in its files.
+struct Resumption {
+  Restart from;
+  std::uint64_t patches_length = 0;  // bytes
+};
+
+// Nothing where the run has no checkpoint yet. Throws InputError for a run that cannot be gone on with.
+std::optional<Resumption> resumption_of(const Scenario& scenario, const std::filesystem::path& directory) {
+  auto restart = last_checkpoint(directory, to_toml(scenario));
+  if (!restart) return std::nullopt;
+  require_logs(directory, restart->checkpoint.logs);
+  const int step = restart->checkpoint.step;
+  return Resumption{std::move(*restart), scenario.output.patches ? patches_length_up_to(directory, step) : 0};
+}
+
+// What a failure that ends a run is called.
+std::string reason_of(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) ? "out of memory" : error.what();
+}
+
+// The steps of one run, and all it writes. Construction opens the files. Pre: check_run_directory.
 class Runner {
  public:
   Runner(const Scenario& scenario, const RunOptions& options, RunObserver& observer, SetUp set_up,
@@ -60,7 +82,7 @@ class Runner {
         motion_(std::move(set_up.motion)),
         stepper_(set_up.mesh, options_of(scenario)),
         steps_(scenario.time),
-        json_(open(directory_, scenario), scenario, options),
+        json_(started(scenario, options, plan)),
         log_(directory_),
         series_(directory_, set_up.mesh) {
     checkpoint_.origin = origin_of(set_up.mesh);
@@ -71,22 +93,24 @@ class Runner {
 
   // Goes on from a checkpoint. set_up: of its initial mesh.
   Runner(const Scenario& scenario, const RunOptions& options, RunObserver& observer, SetUp set_up,
-         RunPlan plan, Restart from)
+         RunPlan plan, Resumption resumed)
       : scenario_(scenario),
         options_(options),
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
-        stepper_(std::move(from.mesh), options_of(scenario), from.checkpoint.time, from.checkpoint.step),
-        steps_(scenario.time, from.checkpoint.adaptive),
-        json_(directory_, scenario, options),
-        log_(directory_, from.checkpoint.logs),
-        series_(directory_, set_up.mesh, from.checkpoint.series),
-        summary_(from.checkpoint.totals),
-        checkpoint_(std::move(from.checkpoint)),
+        stepper_(std::move(resumed.from.mesh), options_of(scenario), resumed.from.checkpoint.time,
+                 resumed.from.checkpoint.step),
+        steps_(scenario.time, resumed.from.checkpoint.adaptive),
+        json_(directory_, scenario, options, files_of_run(directory_)),
+        log_(directory_, resumed.from.checkpoint.logs),
+        series_(directory_, set_up.mesh, resumed.from.checkpoint.series),
+        summary_(resumed.from.checkpoint.totals),
+        checkpoint_(std::move(resumed.from.checkpoint)),
         last_checkpoint_(checkpoint_.step) {
-    if (scenario.output.patches) patches_.emplace(directory_, checkpoint_.step);
+    if (scenario.output.patches) patches_.emplace(directory_, resumed.patches_length);
     begin(std::move(plan));
+    json_.write(summary_, RunState::Running);
   }
 
   RunSummary run() {
@@ -103,10 +127,22 @@ class Runner {
   }
 
  private:
-  static const std::filesystem::path& open(const std::filesystem::path& directory, const Scenario& scenario) {
-    clear_run_directory(directory);
-    write_file_atomically(directory / "scenario.toml", to_toml(scenario));
-    return directory;
+  // Of a run in a folder that was empty, or another run's: that makes way. From here on the folder holds no run that
+  // is done, and each file that is there at any moment is listed.
+  static RunJson started(const Scenario& scenario, const RunOptions& options, const RunPlan& plan) {
+    const auto& directory = plan.directory;
+    auto files = files_of_run(directory);
+    files.insert({"scenario.toml", "steps.csv", "regions.csv", "mesh.pvd"});
+    if (scenario.output.patches) files.insert("patches.bin");
+    RunJson json(directory, scenario, options, std::move(files));
+    RunSummary nothing_yet;
+    nothing_yet.plan = plan;
+    json.write(nothing_yet, RunState::Running);
+    clear_run_directory(directory, scenario);
+    if (options.force) remove_report(directory);
+    if (!std::filesystem::exists(directory / "scenario.toml"))
+      write_file_atomically(directory / "scenario.toml", to_toml(scenario));
+    return json;
   }
 
   static StepperOptions options_of(const Scenario& scenario) {
@@ -122,7 +158,6 @@ class Runner {
     checkpoint_.scenario = to_toml(scenario_);
     checkpoint_.logs = log_.lengths();
     summary_.plan = std::move(plan);
-    json_.write(summary_, RunState::Running);
     if (patches_) stepper_.observe([this](const StepChanges& changes) { patches_->note(changes); });
   }
 
@@ -132,7 +167,7 @@ class Runner {
     try {
       f();
     } catch (const std::exception& error) {
-      if (!summary_.stopped) stop(error.what(), true);
+      if (!summary_.stopped) stop(reason_of(error), true);
     }
   }
 
@@ -196,6 +231,7 @@ class Runner {
       step.detail = detail;
       step.options = options_of(scenario_);
       step.origin = checkpoint_.origin;
+      json_.claim({"failed_step.bin"});
       write_file_atomically(directory_ / "failed_step.bin", format_failed_step(step));
       observer_.note("the step is in " + (directory_ / "failed_step.bin").string() + ", for kinemesh replay");
     } catch (const std::exception& error) {
@@ -238,16 +274,22 @@ class Runner {
     checkpoint_.series = series_.state();
     log_.flush();
     if (patches_) patches_->flush();
+    json_.claim({"checkpoint.bin", "checkpoint_prev.bin", "checkpoint_next.bin"});
     write_checkpoint(directory_, checkpoint_);
     last_checkpoint_ = checkpoint_.step;
   }
 
-  void write_mesh_of_step() { series_.write(stepper_.mesh(), stepper_.steps_done(), stepper_.time()); }
+  void write_mesh_of_step() {
+    json_.claim({mesh_file_name(stepper_.steps_done())});
+    series_.write(stepper_.mesh(), stepper_.steps_done(), stepper_.time());
+  }
 
   void write_last() {
     const Stopwatch writing;
     if (series_.last_written() != stepper_.steps_done()) write_mesh_of_step();
-    write_mesh(directory_ / last_mesh_name(scenario_), stepper_.mesh().domain());
+    const std::string name = last_mesh_name(scenario_);
+    json_.claim({name});
+    write_file_atomically(directory_ / name, format_mesh(stepper_.mesh().domain(), *format_of(name)));
     summary_.ms.write += writing.milliseconds();
   }
 
@@ -274,16 +316,42 @@ class Runner {
   bool is_file_broken_ = false;  // the last step is done, but not in the files
 };
 
-SetUp set_up_for(const Scenario& scenario, const std::optional<Restart>& restart) {
-  return restart ? set_up(scenario, restart->initial) : set_up(scenario);
+SetUp set_up_for(const Scenario& scenario, const std::optional<Resumption>& resumption) {
+  return resumption ? set_up(scenario, resumption->from.initial) : set_up(scenario);
 }
 
+// Locked; made where it is not there, and then checked again, as another process may have been faster.
+FolderLock opened(const std::filesystem::path& directory, const Scenario& scenario, bool may_be_there) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) io::fail(directory, "cannot be made", error.value());
+  FolderLock lock(directory);
+  check_run_directory(directory, scenario, may_be_there);
+  return lock;
+}
+
+// So that it can be gone on with, or started, from there.
+bool holds_scenario(const std::filesystem::path& directory, const Scenario& scenario) {
+  const auto file = directory / "scenario.toml";
+  return std::filesystem::exists(file) && read_file(file) == to_toml(scenario);
+}
+
+// Where files cannot be opened, there are some already: the run has begun, and stops.
 RunSummary go(const Scenario& scenario, const RunOptions& options, RunObserver& observer, SetUp made,
-              RunPlan plan, std::optional<Restart> restart) {
+              const RunPlan& plan, std::optional<Resumption> resumption) {
   const StopOnSignals signals(options.stop_on_signals);
-  if (restart)
-    return Runner(scenario, options, observer, std::move(made), std::move(plan), std::move(*restart)).run();
-  return Runner(scenario, options, observer, std::move(made), std::move(plan)).run();
+  remove_leftovers(plan.directory);
+  try {
+    if (resumption)
+      return Runner(scenario, options, observer, std::move(made), plan, std::move(*resumption)).run();
+    return Runner(scenario, options, observer, std::move(made), plan).run();
+  } catch (const std::exception& error) {
+    RunSummary summary;
+    summary.plan = plan;
+    summary.stopped = reason_of(error);
+    summary.can_resume = holds_scenario(plan.directory, scenario);
+    return summary;
+  }
 }
 
 }  // namespace
@@ -300,26 +368,31 @@ std::string why_stopped(const StepOutcome& outcome) {
 RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver& observer) {
   const ThreadLimit threads(options.threads);
   const auto directory = directory_of(scenario, options);
-  check_run_directory(directory, scenario, options.force || options.resume);
-  std::optional<Restart> restart;
+  const bool may_be_there = options.force || options.resume;
+  FolderLock lock;
+  if (!options.dry_run && std::filesystem::is_directory(directory)) lock = FolderLock(directory);
+  check_run_directory(directory, scenario, may_be_there);
+  std::optional<Resumption> resumption;
   RunSummary summary;
   if (options.resume) {
     require_run_of(to_toml(scenario), directory);
     if ((summary.was_finished = holds_finished_run(directory))) return summary;
-    restart = last_checkpoint(directory, to_toml(scenario));
+    resumption = resumption_of(scenario, directory);
   }
-  SetUp made = set_up_for(scenario, restart);
+  SetUp made = set_up_for(scenario, resumption);
   RunPlan plan = plan_of(scenario, options, made.mesh, threads.count());
-  if (restart) {
-    plan.steps_done = restart->checkpoint.step;
-    plan.start_time = restart->checkpoint.time;
+  if (resumption) {
+    plan.steps_done = resumption->from.checkpoint.step;
+    plan.start_time = resumption->from.checkpoint.time;
   }
   for (const auto& note : made.notes) observer.note(note);
   observer.started(plan);
-  if (options.dry_run)
+  if (options.dry_run) {
     summary.plan = std::move(plan);
-  else
-    summary = go(scenario, options, observer, std::move(made), std::move(plan), std::move(restart));
+  } else {
+    if (!lock.is_held()) lock = opened(directory, scenario, may_be_there);
+    summary = go(scenario, options, observer, std::move(made), plan, std::move(resumption));
+  }
   observer.finished(summary);
   return summary;
 }

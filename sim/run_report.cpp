@@ -78,29 +78,53 @@ void add_step(RunSummary& summary, const StepRecord& record, int n_faces) {
   summary.ms.total += record.total_ms;
 }
 
-RunJson::RunJson(const std::filesystem::path& directory, const Scenario& scenario, const RunOptions& options)
-    : path_(directory / "run.json"), scenario_(scenario), options_(options), started_(now_utc()) {}
+RunJson::RunJson(const std::filesystem::path& directory, const Scenario& scenario, const RunOptions& options,
+                 std::set<std::string> files)
+    : path_(directory / "run.json"),
+      scenario_(scenario),
+      options_(options),
+      started_(now_utc()),
+      files_(std::move(files)) {
+  files_.insert("run.json");
+}
 
-void RunJson::write(const RunSummary& summary, RunState state) const {
+void RunJson::write(const RunSummary& summary, RunState state) {
+  summary_ = summary;
+  state_ = state;
+  const auto is_missing = [&](const std::string& name) {
+    return name != "run.json" && !std::filesystem::exists(path_.parent_path() / name);
+  };
+  if (state != RunState::Running) std::erase_if(files_, is_missing);
+  put();
+}
+
+void RunJson::claim(std::initializer_list<std::string> names) {
+  const auto before = files_.size();
+  files_.insert(names);
+  if (files_.size() > before) put();
+}
+
+void RunJson::put() const {
   Json json;
   json["schema"] = "kinemesh-run-1";
   json["version"] = KINEMESH_VERSION;
   json["scenario"] = std::filesystem::absolute(scenario_.file).lexically_normal().string();
   json["argv"] = options_.argv;
   json["seed"] = scenario_.mesh.shape.empty() ? Json() : Json(scenario_.mesh.seed);
-  json["threads"] = summary.plan.threads;
-  json["strategy"] = summary.plan.strategy;
-  json["mesh"] = mesh_json(summary.plan);
-  json["steps_planned"] = summary.plan.steps;
-  json["end"] = summary.plan.end_time;
+  json["threads"] = summary_.plan.threads;
+  json["strategy"] = summary_.plan.strategy;
+  json["mesh"] = mesh_json(summary_.plan);
+  json["steps_planned"] = summary_.plan.steps;
+  json["end"] = summary_.plan.end_time;
   json["started"] = started_;
-  json["state"] = to_string(state);
-  if (state != RunState::Running) json["ended"] = now_utc();
-  json["steps"] = summary.steps;
-  json["time"] = summary.time;
-  if (summary.stopped) json["stopped"] = *summary.stopped;
-  json["totals"] = totals_json(summary);
-  json["ms"] = times_json(summary.ms);
+  json["state"] = to_string(state_);
+  if (state_ != RunState::Running) json["ended"] = now_utc();
+  json["steps"] = summary_.steps;
+  json["time"] = summary_.time;
+  if (summary_.stopped) json["stopped"] = *summary_.stopped;
+  json["totals"] = totals_json(summary_);
+  json["ms"] = times_json(summary_.ms);
+  json["files"] = files_;
   // A name in another encoding than UTF-8 is no reason to lose the record of a run.
   write_file_atomically(path_, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
+#include <set>
 #include <string>
 
 #include "sim/run.h"
@@ -13,18 +15,29 @@ void add_step(RunSummary& summary, const StepRecord& record, int n_faces);
 
 enum class RunState { Running, Done, Stopped };
 
-// run.json, whole or not at all: who ran what with which program, and how far it came. The only file with
-// dates in it.
+// run.json, whole or not at all: who ran what with which program, how far it came, and which files of the folder
+// are its own (sim/run_directory.h). The only file with dates in it.
 class RunJson {
  public:
-  RunJson(const std::filesystem::path& directory, const Scenario& scenario, const RunOptions& options);
-  void write(const RunSummary& summary, RunState state) const;  // throws InputError naming the file
+  // files: those in the folder that are the run's own already, or of the run it replaces.
+  RunJson(const std::filesystem::path& directory, const Scenario& scenario, const RunOptions& options,
+          std::set<std::string> files);
+
+  // Throw ResourceError or InputError naming the file. At the end of a run, names of files that are not there are
+  // left out.
+  void write(const RunSummary& summary, RunState state);
+  void claim(std::initializer_list<std::string> names);  // before files of these names are made; after a write()
 
  private:
+  void put() const;
+
   std::filesystem::path path_;
   const Scenario& scenario_;
   const RunOptions& options_;
   std::string started_;
+  std::set<std::string> files_;
+  RunSummary summary_;  // as written last
+  RunState state_ = RunState::Running;
 };
 
 }  // namespace kinemesh

@@ -120,7 +120,7 @@ std::string format_mesh(const MeshData& mesh, Format format) {
 
 void write_mesh(const std::filesystem::path& path, const MeshData& mesh) {
   const Format format = require_format(path, &FormatInfo::can_write);
-  io::write_content(path, [&] { return format_mesh(mesh, format); });
+  io::write_content(follow_links(path), [&] { return format_mesh(mesh, format); });
 }
 
 }  // namespace kinemesh

@@ -3,6 +3,7 @@ set(KINEMESH_IO_SOURCES
   orient.cpp
   io/assembler.cpp
   io/atomic_file.cpp
+  io/folder_lock.cpp
   io/gmsh_groups.cpp
   io/gmsh_read.cpp
   io/gmsh_write.cpp
@@ -12,6 +13,7 @@ set(KINEMESH_IO_SOURCES
   io/pieces.cpp
   io/ply.cpp
   io/pvd_read.cpp
+  io/same_file.cpp
   io/scanner.cpp
   io/su2.cpp
   io/svg.cpp

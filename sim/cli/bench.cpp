@@ -11,12 +11,13 @@
 
 #include "core/error.h"
 #include "sim/bench_bound.h"
+#include "sim/cli/bench_directory.h"
 #include "sim/cli/bench_plots.h"
 #include "sim/cli/bench_score.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/csv_log.h"
-#include "sim/run_directory.h"
+#include "sim/setup.h"
 #include "sim/threads.h"
 
 namespace kinemesh::cli {
@@ -104,17 +105,9 @@ void require_distinct(const std::vector<std::string>& strategies) {
   }
 }
 
-fs::path open_directory(const BenchArguments& arguments) {
-  const fs::path directory = arguments.directory.empty()
-                                 ? fs::path(fs::path(arguments.scenario).stem().string() + "-bench")
-                                 : fs::path(arguments.directory);
-  if (fs::exists(directory / "bench.csv") && !arguments.force)
-    throw InputError(directory.string(), 0, "holds a benchmark; --force replaces it");
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw InputError(directory.string(), 0, "cannot be made: " + error.message());
-  remove_report(directory);
-  return directory;
+fs::path directory_of(const BenchArguments& arguments) {
+  return arguments.directory.empty() ? fs::path(fs::path(arguments.scenario).stem().string() + "-bench")
+                                     : fs::path(arguments.directory);
 }
 
 // All scenarios are read before the first one runs.
@@ -128,16 +121,19 @@ std::vector<Scenario> scenarios_of(const BenchArguments& arguments, const Sweep&
   return all;
 }
 
-int bench(const BenchArguments& arguments) {
-  require_distinct(arguments.strategies);
-  const Sweep sweep = arguments.sweep.empty() ? Sweep{"", {""}} : parse_sweep(arguments.sweep);
-  const auto scenarios = scenarios_of(arguments, sweep);
-  const fs::path directory = open_directory(arguments);
-  const ThreadLimit threads(arguments.threads);
+// The first one as it is to be run; the others are set up once for nothing, as what is wrong with them has to be said
+// before the first file is written.
+SetUp check_all(std::span<const Scenario> scenarios) {
+  for (const Scenario& scenario : scenarios.subspan(1)) (void)set_up(scenario);
+  return set_up(scenarios.front());
+}
+
+// All rounds, to a folder that is open. Returns the exit code.
+int compare(const BenchArguments& arguments, const Sweep& sweep, std::span<const Scenario> scenarios, SetUp first) {
+  const fs::path directory = directory_of(arguments);
   BenchLog log(directory, sweep.key);
   BenchPlots plots(fs::path(arguments.scenario).stem().string(), sweep.key);
   std::optional<BoundLog> bound_log;
-  fs::remove(directory / "bench_bound.csv");
   if (arguments.bound) bound_log.emplace(directory, sweep.key);
   int code = done;
   fmt::print(
@@ -154,7 +150,7 @@ int bench(const BenchArguments& arguments) {
     };
     const auto view = bound_log ? TangledMeshViewer(measure_bound) : TangledMeshViewer();
     const auto stopped = compare_strategies(
-        scenarios[i], arguments.strategies,
+        scenarios[i], i == 0 ? std::move(first) : set_up(scenarios[i]), arguments.strategies,
         [&](const Round& round) {
           scores[turn++ % scores.size()].add(round);
           log.write(round, sweep.values[i]);
@@ -171,6 +167,21 @@ int bench(const BenchArguments& arguments) {
   fmt::print("\npeak memory {:.0f} MiB for all strategies together\n{}\n{}\n", peak_memory(),
              (directory / "bench.csv").string(), plots.write(directory));
   return code;
+}
+
+int bench(const BenchArguments& arguments) {
+  require_distinct(arguments.strategies);
+  const Sweep sweep = arguments.sweep.empty() ? Sweep{"", {""}} : parse_sweep(arguments.sweep);
+  const auto scenarios = scenarios_of(arguments, sweep);
+  const ThreadLimit threads(arguments.threads);
+  SetUp first = check_all(scenarios);
+  const FolderLock lock = open_bench_directory(directory_of(arguments), scenarios, arguments.force);
+  try {
+    return compare(arguments, sweep, scenarios, std::move(first));
+  } catch (const InputError& error) {  // by a field, for one: not before anything was written
+    print_error(error.what());
+    return not_valid;
+  }
 }
 
 }  // namespace

@@ -10,10 +10,9 @@
 #include <array>
 #include <bit>
 #include <charconv>
-#include <fstream>
 #include <optional>
 
-#include "core/error.h"
+#include "core/io/atomic_file.h"
 #include "sim/cli/bench_score.h"
 
 namespace kinemesh::cli {
@@ -98,11 +97,6 @@ bool run_gnuplot(const fs::path& script) {
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   return spawned && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
-void write_script(const fs::path& path, const std::string& text) {
-  std::ofstream file(path);
-  if (!(file << text << std::flush)) throw InputError(path.string(), 0, "cannot be written");
 }
 
 bool is_empty(const Plot& plot, const Curves& curves) {
@@ -200,13 +194,11 @@ Curves BenchPlots::curves_of_exploring() const {
 std::string BenchPlots::write(const fs::path& directory) const {
   const fs::path folder = directory / "plots";
   fs::create_directories(folder);
-  for (const std::string name : {"steps", "sweep", "sizes", "explored", "bound"})
-    for (const char* ending : {".gp", ".svg"}) fs::remove(folder / (name + ending));
   bool drawn = true;
   const auto draw = [&](const Plot& plot, const Curves& curves) {
     if (is_empty(plot, curves)) return;
     const fs::path file = folder / (plot.name + ".gp");
-    write_script(file, script(plot, curves));
+    write_file_atomically(file, script(plot, curves));
     drawn = run_gnuplot(file) && drawn;
   };
   if (sweeps_numbers())

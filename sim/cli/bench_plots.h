@@ -1,6 +1,7 @@
 // A benchmark as pictures: gnuplot scripts with their data inside, and SVG where there is a gnuplot.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,6 +12,9 @@
 #include "sim/bench_bound.h"
 
 namespace kinemesh::cli {
+
+// Files in the folder `plots`, without their endings.
+inline constexpr std::array bench_plot_names{"steps", "sweep", "sizes", "explored", "bound"};
 
 struct Curve {
   std::string name;

@@ -12,11 +12,13 @@ namespace kinemesh::cli {
 // What the process returns; a contract.
 enum ExitCode : int {
   done = 0,
-  not_valid = 1,  // done, but the mesh is not valid; or no valid mesh exists; or the run had to stop
-  bad_input = 2,  // nothing was done: a file or the command line is wrong
+  not_valid = 1,  // the mesh is not valid; no valid mesh exists; or the run had to stop, be it for lack of resources
+  bad_input = 2,  // a file or the command line is wrong; nothing was written
+  failed = 3,     // an internal error; or the machine lacks what a command other than run takes
 };
 
-// Returns the exit code. Errors are exceptions: InputError for bad input.
+// Returns the exit code. Errors are exceptions: InputError for bad input, before anything is written; ResourceError
+// and bad_alloc for what the machine lacks; others are internal.
 using Action = std::function<int()>;
 
 void add_list(CLI::App& program, Action& action);

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "sim/cli/commands.h"
+#include "sim/cli/file_arguments.h"
 #include "sim/cli/mesh_arguments.h"
 
 namespace kinemesh::cli {
@@ -13,7 +14,8 @@ struct ConvertArguments {
 
 int convert(const ConvertArguments& arguments) {
   require_writable(arguments.output);
-  write(arguments.output, read(arguments.input));
+  check_files({{"IN", arguments.input.path}}, {{"OUT", arguments.output}});
+  stage_mesh(arguments.output, read(arguments.input)).commit();
   return done;
 }
 

@@ -8,6 +8,7 @@
 #include "core/io/atomic_file.h"
 #include "core/io/svg.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/file_arguments.h"
 #include "sim/cli/mesh_arguments.h"
 #include "sim/draw/png.h"
 #include "sim/draw/region_figure.h"
@@ -45,6 +46,9 @@ bool is_png(const std::string& output) {
 
 void check(const DrawArguments& arguments) {
   (void)is_png(arguments.output);
+  check_files({{"MESH", arguments.mesh.path}, {"--region", arguments.region}}, {{"--output", arguments.output}});
+  require_regular_or_nothing(arguments.output);
+  if (arguments.step != none) require_none_of_run(arguments.output, arguments.mesh.path);
   if (arguments.step == none && std::filesystem::is_directory(arguments.mesh.path))
     throw InputError(arguments.mesh.path, 0, "a folder: --step says which of the run's steps to draw");
   const auto& z = arguments.zoom;

@@ -63,25 +63,31 @@ int answer_to(const CLI::App& program, const CLI::ParseError& error) {
   return bad_input;
 }
 
-// Output that did not arrive (a full disk behind a redirection) must not look like success.
-int after_flush(int code) {
+// Output that did not arrive (a full disk behind a redirection) must not look like success. lack: what the command
+// returns for a lack of resources.
+int after_flush(int code, int lack) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   print_error("cannot write to standard output");
-  return code == done ? not_valid : code;
+  return code == done ? lack : code;
 }
 
-int perform(const Action& action) try { return after_flush(action()); } catch (const InputError& error) {
+int perform(const Action& action, int lack) try {
+  return after_flush(action(), lack);
+} catch (const InputError& error) {
   print_error(error.what());
   return bad_input;
+} catch (const ResourceError& error) {
+  print_error(error.what());
+  return lack;
 } catch (const std::bad_alloc&) {
   print_error("out of memory");
-  return not_valid;
+  return lack;
 } catch (const std::system_error& error) {  // by fmt::print, for one
   print_error(std::ferror(stdout) != 0 ? "cannot write to standard output" : error.what());
-  return not_valid;
+  return lack;
 } catch (const std::exception& error) {
   print_error(fmt::format("internal error: {}", error.what()));
-  return not_valid;
+  return failed;
 }
 
 int run_program(int argc, char** argv) {
@@ -91,7 +97,8 @@ int run_program(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(
       "Exit codes: 0 done; 1 the mesh is not valid, or no valid mesh exists, or the run had to stop;\n"
-      "2 bad input or usage.");
+      "2 bad input or usage, and nothing was written; 3 internal error, or lack of resources in other\n"
+      "commands than run.");
   add_run(program, action, {argv, argv + argc});
   add_replay(program, action);
   add_bench(program, action);
@@ -104,9 +111,9 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return after_flush(answer_to(program, error));
+    return after_flush(answer_to(program, error), failed);
   }
-  return perform(action);
+  return perform(action, program.got_subcommand("run") ? not_valid : failed);
 }
 
 }  // namespace

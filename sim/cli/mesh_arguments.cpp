@@ -60,10 +60,8 @@ void require_writable(const std::string& path) {
                                writable_extensions()));
 }
 
-void write(const std::string& path, const MeshData& data) {
-  require_writable(path);
+void note_losses(const std::string& path, const MeshData& data) {
   const Format format = *format_of(path);
-  write_mesh(path, data);
   const bool loses_labels = has_labels(data) && !keeps_labels(format);
   const bool loses_markers = !data.markers.empty() && !keeps_markers(format);
   if (!loses_labels && !loses_markers) return;

@@ -26,7 +26,7 @@ Mesh build(const MeshInput& input, const MeshData& data);
 // Throws InputError if no writer knows the extension: before the work, not after it.
 void require_writable(const std::string& path);
 
-// Writes the file, whole or not at all, with a note for what its format cannot keep. Throws InputError.
-void write(const std::string& path, const MeshData& data);
+// Prints a note for what the path's format cannot keep. Pre: require_writable.
+void note_losses(const std::string& path, const MeshData& data);
 
 }  // namespace kinemesh::cli

@@ -1,11 +1,13 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <optional>
 
 #include "core/io/atomic_file.h"
-#include "core/io/mesh_io.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
+#include "sim/cli/file_arguments.h"
+#include "sim/cli/mesh_arguments.h"
 #include "sim/failed_step.h"
 #include "sim/run.h"
 
@@ -30,9 +32,12 @@ FailedStep read_failed_step(const std::string& file) {
 void write_meshes(const FailedStep& step, const ReplayArguments& arguments) {
   if (arguments.before.empty() && arguments.after.empty()) return;
   MeshData mesh = mesh_before(step).domain();
-  if (!arguments.before.empty()) write_mesh(arguments.before, mesh);
+  std::optional<StagedFile> before, after;
+  if (!arguments.before.empty()) before.emplace(stage_mesh(arguments.before, mesh));
   mesh.points = step.moved;
-  if (!arguments.after.empty()) write_mesh(arguments.after, mesh);
+  if (!arguments.after.empty()) after.emplace(stage_mesh(arguments.after, mesh));
+  if (before) before->commit();
+  if (after) after->commit();
 }
 
 // What the run said when it had to stop, or nothing.
@@ -47,7 +52,18 @@ std::string reason_to_stop(const FailedStep& step) {
   }
 }
 
+// Before any work: both can be written, and are none of the files there are.
+void check(const ReplayArguments& arguments) {
+  check_files({{"CASE", arguments.file}}, {{"--before", arguments.before}, {"--after", arguments.after}});
+  for (const std::string& output : {arguments.before, arguments.after}) {
+    if (output.empty()) continue;
+    require_writable(output);
+    require_none_of_run(output, std::filesystem::path(arguments.file).parent_path());
+  }
+}
+
 int replay_file(const ReplayArguments& arguments) {
+  check(arguments);
   const FailedStep step = read_failed_step(arguments.file);
   write_meshes(step, arguments);
   const std::string reason = reason_to_stop(step);

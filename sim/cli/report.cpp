@@ -7,6 +7,8 @@
 #include "core/io/atomic_file.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
+#include "sim/cli/file_arguments.h"
+#include "sim/run_directory.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -16,10 +18,29 @@ struct ReportArguments {
   report::ReportOptions options;
 };
 
+namespace fs = std::filesystem;
+
+bool is_inside(const fs::path& path, const fs::path& directory) {
+  std::error_code ignored;
+  for (fs::path folder = fs::absolute(path).parent_path(); folder.has_relative_path();
+       folder = folder.parent_path())
+    if (fs::equivalent(folder, directory, ignored)) return true;
+  return false;
+}
+
+// Nothing in the folder is replaced but a page like the one to come.
+void check(const fs::path& output, const fs::path& directory) {
+  require_none_of_run(output, directory);
+  require_place_for(output);
+  if (is_inside(output, directory) && fs::exists(output) && !is_report(output))
+    throw InputError(output.string(), 0, "is no page of kinemesh report, and not replaced; -o names another");
+  remove_leftovers(fs::absolute(output).parent_path());
+}
+
 int make_report(const ReportArguments& arguments) {
-  const std::filesystem::path directory = arguments.directory;
-  const std::filesystem::path output =
-      arguments.output.empty() ? directory / "report.html" : std::filesystem::path(arguments.output);
+  const fs::path directory = arguments.directory;
+  const fs::path output = arguments.output.empty() ? directory / "report.html" : fs::path(arguments.output);
+  if (fs::is_directory(directory)) check(output, directory);
   const report::Report made = report::make_report(directory, arguments.options);
   for (const std::string& text : made.notes) print_note(text);
   write_file_atomically(output, made.html);

@@ -11,6 +11,7 @@
 #include "sim/cli/check_report.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
+#include "sim/cli/file_arguments.h"
 #include "sim/cli/mesh_arguments.h"
 #include "untangle/local.h"
 #include "untangle/stuck.h"
@@ -112,6 +113,7 @@ int untangle(const UntangleArguments& arguments) try {
     throw InputError("--seed goes with --strategy local only");
   }
   require_writable(arguments.output);
+  check_files({{"MESH", arguments.mesh.path}}, {{"--output", arguments.output}, {"--report", arguments.report}});
   const std::unique_ptr<Strategy> strategy = make_strategy(arguments.strategy);
   const MeshData data = read(arguments.mesh);
   Mesh mesh = build(arguments.mesh, data);
@@ -127,11 +129,12 @@ int untangle(const UntangleArguments& arguments) try {
         fmt::format("{}: {} edges join vertices that another edge joins too, as the mesh is still tangled",
                     arguments.output, outcome.record.doubled_edges));
   }
-  write(arguments.output, repaired);
+  StagedFile output = stage_mesh(arguments.output, repaired);
   if (!arguments.report.empty()) {
     const Json report = to_json(arguments, mesh, outcome.record, faces);
-    write_file_atomically(arguments.report, report.dump(1) + "\n");
+    StagedFile(follow_links(arguments.report), report.dump(1) + "\n").commit();
   }
+  output.commit();
   print_summary(arguments, mesh, outcome.record, faces);
   return is_valid ? done : not_valid;
 } catch (const NoEmbedding& error) {

@@ -112,7 +112,7 @@ TEST(RegisteredStrategy, IsComparedWithTheOthers) {
   int n = 0, n_moved = 0, inverted = 0;
   const std::vector<std::string> overrides{"motion.0.amplitude=0.04", "time.steps=30"};
   const auto scenario = parse_scenario(jittered, "jittered.toml", overrides);
-  EXPECT_FALSE(compare_strategies(scenario, names, [&](const Round& round) {
+  EXPECT_FALSE(compare_strategies(scenario, set_up(scenario), names, [&](const Round& round) {
     accepted[round.strategy] += round.record.accepted;
     EXPECT_FALSE(validate(round.mesh)) << round.strategy;
     positions[round.strategy] = round.mesh.user_positions();

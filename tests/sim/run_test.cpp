@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -216,6 +218,94 @@ TEST_F(RunTest, RefusesToReplaceItsOwnInput) {
   EXPECT_THAT(error_of(load({"mesh.file=out/final.su2"}), force),
               HasSubstr("final.su2: the run would replace"));
   EXPECT_TRUE(std::filesystem::exists(out() / "final.su2"));
+}
+
+// Whatever has a name of ours and is not in run.json's list is somebody else's.
+TEST_F(RunTest, NothingIsReplacedThatNoRunHasWritten) {
+  RunOptions force, resume;
+  force.force = resume.resume = true;
+  for (const char* name : {"steps.csv", "regions.csv", "mesh.pvd", "mesh_000003.vtu", "mesh_999999.vtu",
+                           "checkpoint.bin", "patches.bin", "failed_step.bin", "final.su2", "final.off", "run.json",
+                           "scenario.toml"}) {
+    std::filesystem::remove_all(out());
+    std::filesystem::create_directory(out());
+    folder_.write(std::string("out/") + name, "mine");
+    for (const RunOptions& options : {RunOptions(), force, resume})
+      EXPECT_THAT(error_of(load(), options), HasSubstr("out")) << name;
+    EXPECT_EQ(content_of(out() / name), "mine");
+    EXPECT_EQ(files().size(), 1u);
+  }
+  std::filesystem::remove_all(out());
+  (void)go(load());
+  folder_.write("out/mesh_000007.vtu", "mine");
+  const auto before = results_in(out());
+  EXPECT_THAT(error_of(load(), force), HasSubstr("mesh_000007.vtu: is in the way"));
+  EXPECT_EQ(results_in(out()), before);
+}
+
+TEST_F(RunTest, RunJsonListsWhatTheRunHasWrittenAndIsNotBelievedMoreThanThat) {
+  (void)go(load({"output.patches=true"}));
+  auto json = nlohmann::json::parse(content_of(out() / "run.json"));
+  std::vector<std::string> listed = json["files"];
+  EXPECT_THAT(listed, ::testing::UnorderedElementsAreArray(files()));
+  folder_.write("precious", "mine");
+  folder_.write("out/notes.txt", "mine");
+  json["files"].push_back("../precious");
+  json["files"].push_back("notes.txt");
+  json["files"].push_back((folder_ / "precious").string());
+  json["files"].push_back(7);
+  folder_.write("out/run.json", json.dump());
+  RunOptions force;
+  force.force = true;
+  EXPECT_FALSE(go(load(), force).stopped);
+  EXPECT_EQ(content_of(folder_ / "precious") + content_of(out() / "notes.txt"), "minemine");
+}
+
+TEST_F(RunTest, LinksPipesAndFoldersInThePlaceOfItsFilesAreRefused) {
+  folder_.write("victim", "precious");
+  RunOptions force, resume;
+  force.force = resume.resume = true;
+  for (const char* name : {"steps.csv", "mesh.pvd", "run.json", "checkpoint.bin", "mesh_000000.vtu", "final.su2"}) {
+    for (const char* kind : {"link", "pipe", "folder"}) {
+      std::filesystem::remove_all(out());
+      (void)go(load());
+      std::filesystem::remove(out() / name);
+      if (kind == std::string("link")) std::filesystem::create_symlink("../victim", out() / name);
+      if (kind == std::string("pipe")) ASSERT_EQ(mkfifo((out() / name).c_str(), 0600), 0);
+      if (kind == std::string("folder")) std::filesystem::create_directory(out() / name);
+      for (const RunOptions& options : {force, resume})
+        EXPECT_THAT(error_of(load(), options), HasSubstr(name)) << kind;
+      EXPECT_EQ(content_of(folder_ / "victim"), "precious");
+    }
+  }
+}
+
+// A log is continued in place: not under another name's feet.
+TEST_F(RunTest, ALogWithASecondNameIsNotContinued) {
+  (void)go(load({"output.checkpoint=4"}));
+  auto json = nlohmann::json::parse(content_of(out() / "run.json"));
+  json["state"] = "running";
+  folder_.write("out/run.json", json.dump());
+  std::filesystem::create_hard_link(out() / "steps.csv", folder_ / "kept.csv");
+  const std::string kept = content_of(folder_ / "kept.csv");
+  RunOptions resume;
+  resume.resume = true;
+  EXPECT_THAT(error_of(load({"output.checkpoint=4"}), resume), HasSubstr("steps.csv: has other names"));
+  EXPECT_EQ(content_of(folder_ / "kept.csv"), kept);
+  std::filesystem::remove(folder_ / "kept.csv");
+  EXPECT_FALSE(go(load({"output.checkpoint=4"}), resume).stopped);
+}
+
+TEST_F(RunTest, TheResolvedScenarioRunsAgainInItsFolderAndStaysAsItIs) {
+  (void)go(load());
+  const auto first = results_in(out());
+  RunOptions force;
+  force.force = true;
+  EXPECT_FALSE(go(load_scenario(out() / "scenario.toml"), force).stopped);
+  EXPECT_EQ(results_in(out()), first);
+  const std::vector<std::string> other{"time.steps=3"};
+  EXPECT_THAT(error_of(load_scenario(out() / "scenario.toml", other), force), HasSubstr("the run would replace"));
+  EXPECT_EQ(results_in(out()), first);
 }
 
 TEST_F(RunTest, RunsIntoAFolderThatHoldsOtherThings) {
