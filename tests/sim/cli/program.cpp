@@ -26,7 +26,7 @@ fs::path make_folder(const char* kind) {
   if (out_file >= 0 && err_file >= 0 && chdir(folder) == 0) {
     dup2(out_file, STDOUT_FILENO);
     dup2(err_file, STDERR_FILENO);
-    execv(argv[0], argv);
+    execvp(argv[0], argv);
   }
   _exit(99);
 }
@@ -75,6 +75,10 @@ std::vector<std::string> ProgramTest::files() const {
 pid_t ProgramTest::start(const std::vector<std::string>& arguments, int err_file) const {
   std::vector<std::string> words{KINEMESH_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
+  return start_words(std::move(words), err_file);
+}
+
+pid_t ProgramTest::start_words(std::vector<std::string> words, int err_file) const {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

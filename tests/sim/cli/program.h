@@ -36,6 +36,9 @@ class ProgramTest : public ::testing::Test {
   Result run(const std::vector<std::string>& arguments) const;
 
   pid_t start(const std::vector<std::string>& arguments, int err_file = -1) const;  // -1: kept for wait
+
+  // Any program with its arguments, looked for on the path.
+  pid_t start_words(std::vector<std::string> words, int err_file = -1) const;
   Result wait(pid_t process) const;
 
   // Likewise, with a terminal as its stderr, of so many columns (0: unknown). Pre: has_terminals(), as machines with /dev/pts do.
