@@ -43,6 +43,19 @@ Box domain_box(const Mesh& mesh) {
   return box;
 }
 
+// A step that is longer than the frame is deep takes the frame with it. Places that are not finite, which nothing
+// reaches, are left to who looks for them.
+void enlarge(const Mesh& mesh, std::span<Point> next) {
+  Box box;
+  for (const auto& constraint : mesh.constraints())
+    if (constraint.is_border()) box.add(next[constraint.from]);
+  const Point low = next[mesh.frame()[0]], high = next[mesh.frame()[2]];
+  const bool is_inside = low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y;
+  if (is_inside || !std::isfinite(box.diagonal())) return;
+  const auto fresh = rectangle(box, mesh.frame_margin());
+  for (int i = 0; i < 4; ++i) next[mesh.frame()[i]] = fresh[i];
+}
+
 }  // namespace
 
 std::array<Point, 4> frame_around(std::span<const Point> points, double margin) {
@@ -63,6 +76,7 @@ void follow(const Mesh& mesh, std::span<Point> next) {
     const int corner = mesh.frame()[i];
     next[corner] = stays ? mesh.position(corner) : fresh[i];
   }
+  enlarge(mesh, next);
 }
 
 std::optional<Defect> hull_defect(const Mesh& mesh, std::span<const Point> next) {

@@ -8,55 +8,8 @@
 namespace kinemesh {
 namespace {
 
-// Rounding of coordinates in a file with 10 digits or more; any curve that is resolved at all is farther off.
-constexpr double straight_within = 1e-9;
-
-double cross(const Point& a, const Point& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
 std::string quoted(const Mesh& mesh, int marker) {
   return marker == none ? "the border without a marker" : "marker \"" + mesh.marker_names()[marker] + "\"";
-}
-
-// Vertices of each connected piece of the edges.
-std::vector<std::vector<int>> pieces_of(const std::vector<Edge>& edges) {
-  std::unordered_map<int, std::vector<int>> neighbours;
-  for (const auto& [from, to] : edges) {
-    neighbours[from].push_back(to);
-    neighbours[to].push_back(from);
-  }
-  std::unordered_map<int, bool> seen;
-  std::vector<std::vector<int>> pieces;
-  for (const auto& edge : edges) {
-    if (seen[edge[0]]) continue;
-    auto& piece = pieces.emplace_back(1, edge[0]);
-    seen[edge[0]] = true;
-    for (std::size_t i = 0; i < piece.size(); ++i)
-      for (const int w : neighbours[piece[i]])
-        if (!std::exchange(seen[w], true)) piece.push_back(w);
-  }
-  return pieces;
-}
-
-int farthest_from(int vertex, const std::vector<int>& piece, std::span<const Point> x) {
-  return *std::max_element(piece.begin(), piece.end(), [&](int v, int w) {
-    return glm::distance(x[v], x[vertex]) < glm::distance(x[w], x[vertex]);
-  });
-}
-
-// Unit vector along a straight piece; throws for a bent one.
-Point direction_of(const Mesh& mesh, int marker, const std::vector<int>& piece) {
-  const auto x = mesh.positions();
-  const int a = farthest_from(piece.front(), piece, x), b = farthest_from(a, piece, x);
-  const double length = glm::distance(x[a], x[b]);
-  const Point unit = (x[b] - x[a]) / length;
-  for (const int v : piece)
-    if (!(std::abs(cross(unit, x[v] - x[a])) <= straight_within * length))
-      throw ParameterError(marker == none ? "default" : mesh.marker_names()[marker],
-                           quoted(mesh, marker) + " cannot slide: it is not straight at vertex " +
-                               std::to_string(mesh.user_vertex(v)) + ", and only a straight border can");
-  return unit;
 }
 
 // What the border says about every vertex, before frame and fixed vertices.
@@ -68,7 +21,8 @@ class BorderReader {
         throw ParameterError(name, "the mesh has no marker \"" + name + "\"");
   }
 
-  void read(std::vector<BorderCondition>& at, std::unordered_map<int, Point>& tangents) const {
+  // Conditions of all vertices; the lines of those that slide.
+  std::vector<SlideLine> read(std::vector<BorderCondition>& at) const {
     std::map<int, std::vector<Edge>> sliding;  // by marker
     const auto apply = [&](const Edge& edge, int marker, BorderCondition condition) {
       for (const int v : edge) at[v] = std::max(at[v], condition);
@@ -76,9 +30,10 @@ class BorderReader {
     };
     read_named(apply);
     read_others(apply);
-    for (const auto& [marker, edges] : sliding)
-      for (const auto& piece : pieces_of(edges))
-        slide(piece, direction_of(mesh_, marker, piece), at, tangents);
+    std::vector<SlideLine> lines;
+    for (const auto& [marker, edges] : sliding) add_lines(marker, edges, lines);
+    hold_corners(lines, at);
+    return lines;
   }
 
  private:
@@ -100,12 +55,24 @@ class BorderReader {
         apply({c.from, c.to}, c.marker, conditions_.otherwise);
   }
 
-  static void slide(const std::vector<int>& piece, const Point& direction, std::vector<BorderCondition>& at,
-                    std::unordered_map<int, Point>& tangents) {
-    for (const int v : piece) {
-      const auto [other, is_first] = tangents.emplace(v, direction);
-      if (!is_first && std::abs(cross(other->second, direction)) > straight_within)
-        at[v] = BorderCondition::Fixed;
+  void add_lines(int marker, const std::vector<Edge>& edges, std::vector<SlideLine>& lines) const {
+    try {
+      for (SlideLine& line : slide_lines(mesh_, edges)) lines.push_back(std::move(line));
+    } catch (const InputError& error) {
+      throw ParameterError(marker == none ? "default" : mesh_.marker_names()[marker],
+                           quoted(mesh_, marker) + " cannot slide: " + error.what());
+    }
+  }
+
+  // A vertex of two lines slides where they go on in one direction.
+  static void hold_corners(const std::vector<SlideLine>& lines, std::vector<BorderCondition>& at) {
+    std::unordered_map<int, Point> directions;
+    for (const SlideLine& line : lines) {
+      for (const int v : line.corners()) at[v] = BorderCondition::Fixed;
+      for (const auto& [v, direction] : line.ends()) {
+        const auto [other, is_first] = directions.emplace(v, direction);
+        if (!is_first && !are_parallel(other->second, direction)) at[v] = BorderCondition::Fixed;
+      }
     }
   }
 
@@ -125,9 +92,19 @@ BorderCondition parse_border_condition(std::string_view name, const std::string&
 
 Freedom::Freedom(const Mesh& mesh, const BorderConditions& conditions)
     : conditions_(mesh.n_vertices(), BorderCondition::Moving) {
-  BorderReader(mesh, conditions).read(conditions_, tangents_);
+  lines_ = BorderReader(mesh, conditions).read(conditions_);
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (mesh.is_fixed(v) || mesh.user_vertex(v) == none) conditions_[v] = BorderCondition::Fixed;
+  for (std::size_t i = 0; i < lines_.size(); ++i)
+    for (const int v : lines_[i].vertices()) line_of_.emplace(v, static_cast<int>(i));
+}
+
+Point Freedom::tangent(int vertex, const Point& x) const {
+  return lines_[line_of_.at(vertex)].tangent_near(x);
+}
+
+Point Freedom::on_line(int vertex, const Point& x0, const Point& x1) const {
+  return lines_[line_of_.at(vertex)].moved(x0, x1);
 }
 
 Point Freedom::along(const Point& tangent, const Point& v) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -10,6 +11,7 @@
 
 #include "core/mesh.h"
 #include "motion/parameters.h"
+#include "motion/slide_line.h"
 
 namespace kinemesh {
 
@@ -25,33 +27,42 @@ struct BorderConditions {
   std::map<std::string, BorderCondition> by_marker;  // inner lines, too, where named
 };
 
-// How each vertex may move: anywhere, along a straight border, or not at all.
+// How each vertex may move: anywhere, along a line, or not at all.
 //
 // Vertices on no border move freely; so do those of inner markers and of interfaces between labels, which are
-// no border, unless their marker is named. Corners of the frame and fixed vertices of the mesh do not move. A
-// vertex where two sliding borders of different directions meet does not move.
+// no border, unless their marker is named. Corners of the frame and fixed vertices of the mesh do not move. Sliding
+// vertices follow the line that their border was at the start (motion/slide_line.h), corners of more than 30 degrees
+// apart, which do not move; nor do vertices where two sliding borders of different directions meet.
 class Freedom {
  public:
-  // Throws ParameterError whose key is the marker: not in the mesh; or sliding, but one of its connected
-  // pieces is not straight (a vertex farther from the line through its ends than 1e-9 of their distance),
-  // naming the vertex.
+  // mesh: at the start of the run. Throws ParameterError whose key is the marker: not in the mesh; or sliding, but
+  // three or more of its edges meet in a vertex, which it names.
   Freedom(const Mesh& mesh, const BorderConditions& conditions);
 
   BorderCondition of(int vertex) const { return conditions_[vertex]; }
 
-  // The part of `v` that the vertex may follow. Horizontal and vertical borders keep their constant
-  // coordinate exactly; on others a vertex leaves the line by rounding, and the border, which is what its
-  // vertices make it, with it.
-  Point allowed(int vertex, const Point& v) const {
+  // The part of `v` that the vertex at x may follow. Horizontal and vertical borders keep their constant
+  // coordinate exactly; on others a vertex leaves the line by rounding, until it is put back by on_line.
+  Point allowed(int vertex, const Point& x, const Point& v) const {
     if (conditions_[vertex] == BorderCondition::Moving) return v;
-    return conditions_[vertex] == BorderCondition::Fixed ? Point(0.0, 0.0) : along(tangents_.at(vertex), v);
+    return conditions_[vertex] == BorderCondition::Fixed ? Point(0.0, 0.0) : along(tangent(vertex, x), v);
   }
+
+  // Of a sliding vertex: unit vector along its line at x.
+  Point tangent(int vertex, const Point& x) const;
+
+  // Where a sliding vertex that has moved from x0 to x1 is on its line: the way along it counts. Straight horizontal
+  // and vertical lines keep x1 bit by bit.
+  Point on_line(int vertex, const Point& x0, const Point& x1) const;
+
+  std::span<const SlideLine> lines() const { return lines_; }
 
  private:
   static Point along(const Point& tangent, const Point& v);
 
   std::vector<BorderCondition> conditions_;  // per vertex
-  std::unordered_map<int, Point> tangents_;  // unit vectors of sliding vertices
+  std::vector<SlideLine> lines_;
+  std::unordered_map<int, int> line_of_;  // of sliding vertices
 };
 
 }  // namespace kinemesh

@@ -2,10 +2,11 @@
 
 #include <numbers>
 
-#include "motion/body.h"
+#include "motion/oscillation.h"
 #include "motion/expression.h"
 #include "motion/noise.h"
 #include "motion/plugin_field.h"
+#include "motion/prescribed_path.h"
 #include "motion/recorded.h"
 #include "motion/rigid.h"
 #include "motion/sampled_grid.h"
@@ -127,6 +128,14 @@ std::vector<RegisteredField> body_fields() {
        [](const Parameters& p) {
          return std::make_shared<Plunge>(p.point("direction"), p.number("amplitude"), p.number("omega"));
        }},
+      {{"rigid",
+        "turns about a centre and shifts, by formulas of t or a table",
+        {{"center", Kind::Vector, "of the turn, where it is at the start", origin},
+         {"x", Kind::Text, "shift, length", "0"},
+         {"y", Kind::Text, "shift, length", "0"},
+         {"angle", Kind::Text, "radians, counter-clockwise", "0"},
+         {"file", Kind::OptionalFile, "table of t,x,y,angle instead of the formulas", ""}}},
+       prescribed_path},
   };
 }
 

@@ -134,6 +134,12 @@ void RecordedPositions::require_initial(std::span<const Point> positions) const 
                                    first[v].x, first[v].y, positions[v].x, positions[v].y));
 }
 
+void RecordedPositions::require_all(std::span<const Point> positions) const {
+  for (const Point& p : positions)
+    if (!vertex_at_.contains(p))
+      throw InputError(file_, 0, fmt::format("no vertex begins at ({}, {}), where the body has one", p.x, p.y));
+}
+
 bool RecordedPositions::covers(double from, double to) const {
   const double tolerance = slack * (times_.back() - times_.front());
   return from >= times_.front() - tolerance && to <= times_.back() + tolerance;

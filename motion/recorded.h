@@ -24,9 +24,10 @@ class RecordedPositions final : public DisplacementField {
   Point displacement(const Point& initial, double t) const override;
 
   // Throw InputError that names the file: the record does not begin at these positions, bit by bit; it does
-  // not reach from one time to the other.
+  // not reach from one time to the other; at some of these positions no vertex begins.
   void require_initial(std::span<const Point> positions) const;
   void require_times(double from, double to) const;
+  void require_all(std::span<const Point> positions) const;  // begin there, whatever else there is
 
   const std::vector<double>& times() const { return times_; }  // ascending
 

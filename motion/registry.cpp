@@ -38,6 +38,7 @@ const char* expectation(ParameterKind kind) {
     case ParameterKind::Text:
       return "a text";
     case ParameterKind::File:
+    case ParameterKind::OptionalFile:
       return "the name of a file";
   }
   return "";
@@ -95,6 +96,7 @@ bool fits(ParameterKind kind, const ParameterValue& value) {
     case ParameterKind::Seed:
       return std::holds_alternative<std::int64_t>(value) && std::get<std::int64_t>(value) >= 0;
     case ParameterKind::Text:
+    case ParameterKind::OptionalFile:
       return std::holds_alternative<std::string>(value);
     case ParameterKind::File:
       return std::holds_alternative<std::string>(value) && !std::get<std::string>(value).empty();

@@ -25,7 +25,12 @@ enum class ParameterKind {
   Seed,               // integer >= 0
   Text,
   File,  // a text; relative to the scenario's folder, absolute for the field
+  OptionalFile,  // likewise, or empty
 };
+
+inline bool is_file(ParameterKind kind) {
+  return kind == ParameterKind::File || kind == ParameterKind::OptionalFile;
+}
 
 struct ParameterInfo {
   std::string name;

@@ -2,15 +2,18 @@
 #pragma once
 
 #include "motion/field.h"
+#include "motion/pose.h"
 
 namespace kinemesh {
 
 // v = rate (-(y - cy), x - cx): the plane turns rigidly about `center`, counter-clockwise for rate > 0.
-class Rotation : public VelocityField {
+class Rotation : public VelocityField, public RigidPath {
  public:
   Rotation(const Point& center, double rate) : center_(center), rate_(rate) {}  // rate: radians per time
   std::string_view name() const override { return "rotation"; }
   Point velocity(const Point& x, double t) const override;
+  Pose pose(double t) const override { return {.angle = static_cast<long double>(rate_) * t}; }
+  std::optional<Point> center() const override { return center_; }
 
  private:
   Point center_;
@@ -26,11 +29,15 @@ class ZalesakRotation final : public Rotation {
 };
 
 // v = velocity, everywhere and always.
-class Translation final : public VelocityField {
+class Translation final : public VelocityField, public RigidPath {
  public:
   explicit Translation(const Point& velocity) : velocity_(velocity) {}
   std::string_view name() const override { return "translate"; }
   Point velocity(const Point& x, double t) const override;
+  Pose pose(double t) const override {
+    return {.x = static_cast<long double>(velocity_.x) * t, .y = static_cast<long double>(velocity_.y) * t};
+  }
+  std::optional<Point> center() const override { return std::nullopt; }
 
  private:
   Point velocity_;

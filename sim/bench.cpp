@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "core/error.h"
 #include "core/frame.h"
+#include "core/stopwatch.h"
 #include "core/validate.h"
+#include "motion/following.h"
 #include "sim/run.h"
 #include "sim/setup.h"
 
@@ -70,6 +73,7 @@ class Contest {
         mesh_(std::move(set_up.mesh)),
         now_(mesh_.positions().begin(), mesh_.positions().end()),
         next_(now_) {
+    if (!motion_.roles().empty()) following_.emplace(mesh_, motion_.interior());
     for (const auto& strategy : strategies) {
       RepairSpec repair = scenario.repair;
       repair.strategy = strategy;
@@ -87,10 +91,19 @@ class Contest {
   }
 
  private:
+  // The interior follows on the mesh of the first competitor: they all are valid.
   void move(int step) {
-    const double t = time_.time_after(step - 1), dt = time_.time_after(step) - t;
-    motion_.advance(now_, t, dt, static_cast<std::uint64_t>(step - 1), next_);
+    const double t = time_.time_after(step - 1), end = time_.time_after(step);
+    const TimeStep whole{t, end, end - t, static_cast<std::uint64_t>(step - 1)};
+    motion_.advance(now_, whole, next_);
+    const Stopwatch clock;
+    if (following_ && !following_->follow(leader().mesh(), motion_, whole, next_).converged)
+      throw InputError("the interior does not follow the border in step " + std::to_string(step));
+    interior_ms_ = following_ ? clock.milliseconds() : 0.0;
   }
+
+  // Whose mesh the common positions are of where the interior follows.
+  Competitor& leader() { return competitors_[leader_]; }
 
   // As far as its positions are finite.
   void show_tangled(int step, const TangledMeshViewer& view) {
@@ -112,16 +125,29 @@ class Contest {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       if (!outcomes[i] && valid != outcomes.end())
         competitors_[i].follow(competitors_[valid - outcomes.begin()]);
+      outcomes[i].record.interior_ms = interior_ms_;
       tell({competitors_[i].strategy(), outcomes[i].record, competitors_[i].mesh(),
             competitors_[i].held_bytes()});
     }
     if (valid == outcomes.end()) return why_stopped(outcomes.front());
-    std::swap(now_, next_);
+    if (following_)
+      go_on_with(valid - outcomes.begin());
+    else
+      std::swap(now_, next_);
     return std::nullopt;
+  }
+
+  void go_on_with(std::ptrdiff_t competitor) {
+    following_->accept();
+    leader_ = static_cast<std::size_t>(competitor);
+    std::ranges::copy(leader().mesh().positions(), now_.begin());
   }
 
   TimeSpec time_;
   Motion motion_;
+  std::optional<Following> following_;
+  std::size_t leader_ = 0;
+  double interior_ms_ = 0.0;
   Mesh mesh_;                      // as it was at first
   std::vector<Point> now_, next_;  // the common positions, in its numbering
   std::vector<Competitor> competitors_;

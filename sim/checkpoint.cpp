@@ -15,7 +15,7 @@ using binary::Is;
 template <class Archive, class S>
 requires Is<S, PhaseTimes>
 void members(Archive& archive, S& ms) {
-  archive(ms.move, ms.detect, ms.explore, ms.triangulate, ms.splice, ms.quality, ms.total, ms.write);
+  archive(ms.move, ms.interior, ms.detect, ms.explore, ms.triangulate, ms.splice, ms.quality, ms.total, ms.write);
 }
 
 template <class Archive, class S>
@@ -23,7 +23,7 @@ requires Is<S, RunSummary>
 void members(Archive& archive, S& totals) {
   archive(totals.steps, totals.time, totals.steps_tangled, totals.inverted, totals.regions,
           totals.region_faces, totals.region_faces_max, totals.replaced, totals.share_mean, totals.share_max,
-          totals.escaped_max, totals.retries, totals.ms);
+          totals.escaped_max, totals.retries, totals.quality_moves, totals.ms);
 }
 
 template <class Archive, class S>
@@ -51,15 +51,21 @@ void members(Archive& archive, S& adaptive) {
 }
 
 template <class Archive, class S>
+requires Is<S, FollowingState>
+void members(Archive& archive, S& following) {
+  archive(following.increments, following.dt);
+}
+
+template <class Archive, class S>
 requires Is<S, Checkpoint>
 void members(Archive& archive, S& checkpoint) {
   archive(checkpoint.program, checkpoint.scenario, checkpoint.origin, checkpoint.mesh, checkpoint.time,
-          checkpoint.step, checkpoint.adaptive, checkpoint.totals, checkpoint.series, checkpoint.logs);
+          checkpoint.step, checkpoint.adaptive, checkpoint.following, checkpoint.totals, checkpoint.series, checkpoint.logs);
 }
 
 namespace {
 
-constexpr binary::Kind kind{"KMCHKPT\n", 2, "checkpoint of kinemesh"};
+constexpr binary::Kind kind{"KMCHKPT\n", 3, "checkpoint of kinemesh"};
 
 constexpr const char* current_name = "checkpoint.bin";
 constexpr const char* previous_name = "checkpoint_prev.bin";
@@ -74,6 +80,9 @@ Restart restart_from(Checkpoint checkpoint, const std::string& scenario) {
   const auto n_faces = static_cast<std::size_t>(mesh.n_faces());
   if (checkpoint.series.replaced.size() != n_faces || checkpoint.series.region.size() != n_faces)
     throw InputError("the series of a mesh of another size");
+  const auto& increments = checkpoint.following.increments;
+  if (!increments.empty() && increments.size() != static_cast<std::size_t>(mesh.n_vertices()))
+    throw InputError("the interior of a mesh of another size");
   return {std::move(checkpoint), std::move(initial), std::move(mesh)};
 }
 

@@ -16,7 +16,7 @@ const char* const steps_csv_header =
     "step,time,dt,vertices,faces,inverted,degenerate,components,regions,region_faces,region_faces_max,"
     "explored,"
     "replaced,crease_edges,retries,escaped,quality_flips,min_angle_deg,min_area,move_ms,detect_ms,explore_ms,"
-    "triangulate_ms,splice_ms,quality_ms,total_ms,accepted";
+    "triangulate_ms,splice_ms,quality_ms,total_ms,accepted,interior_ms,quality_moves";
 
 const char* const regions_csv_header =
     "step,region,seed,faces,inverted,components,explored,border_edges,crease_edges,self_overlap,retries,x,y";
@@ -29,8 +29,8 @@ std::string steps_csv_row(const StepRecord& s) {
                   r.replaced, r.crease_edges(), r.retries(), r.escaped, r.quality_flips);
   const auto times = fmt::format("{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}", s.move_ms, r.detect_ms,
                                  r.explore_ms, r.triangulate_ms, r.splice_ms, r.quality_ms, s.total_ms);
-  return fmt::format("{},{},{},{},{},{},{},{}", s.step, s.time, s.dt, ints, s.min_angle_deg, s.min_area,
-                     times, s.accepted ? 1 : 0);
+  return fmt::format("{},{},{},{},{},{},{},{},{:.3f},{}", s.step, s.time, s.dt, ints, s.min_angle_deg, s.min_area,
+                     times, s.accepted ? 1 : 0, s.interior_ms, r.quality_moves);
 }
 
 std::string regions_csv_row(int step, int number, const RegionRecord& r) {

@@ -23,11 +23,9 @@ constexpr binary::Kind kind{"KMFSTEP\n", 2, "failed step of kinemesh"};
 
 }  // namespace
 
-FailedStep failed_step(const Stepper& stepper, const Motion& motion, double end_time) {
+FailedStep failed_step(Stepper& stepper, const Motion& motion, double end_time) {
   const Mesh& mesh = stepper.mesh();
-  std::vector<Point> next(mesh.positions().begin(), mesh.positions().end());
-  motion.advance(mesh.positions(), stepper.time(), end_time - stepper.time(),
-                 static_cast<std::uint64_t>(stepper.steps_done()), next);
+  const std::vector<Point> next = stepper.moved(motion, end_time);
   FailedStep step;
   step.mesh = state_of(mesh);
   step.moved = mesh.in_user_order(next);

@@ -27,7 +27,7 @@ struct FailedStep {
 
 // What `stepper` fails to do: mesh, time and number are its own, positions those of the motion. The other
 // members are left to the caller. Throws what the motion's fields throw.
-FailedStep failed_step(const Stepper& stepper, const Motion& motion, double end_time);
+FailedStep failed_step(Stepper& stepper, const Motion& motion, double end_time);
 
 // The mesh before the step.
 Mesh mesh_before(const FailedStep& step);

@@ -272,6 +272,7 @@ class Runner {
     checkpoint_.step = stepper_.steps_done();
     checkpoint_.totals = summary_;
     checkpoint_.series = series_.state();
+    checkpoint_.following = stepper_.following_state();
     log_.flush();
     if (patches_) patches_->flush();
     json_.claim({"checkpoint.bin", "checkpoint_prev.bin", "checkpoint_next.bin"});
@@ -358,9 +359,14 @@ RunSummary go(const Scenario& scenario, const RunOptions& options, RunObserver& 
 
 std::string why_stopped(const StepOutcome& outcome) {
   const std::string step = "step " + std::to_string(outcome.record.step);
-  if (outcome.defect)
+  if (outcome.defect) {
+    const bool has_escaped = outcome.defect->kind == DefectKind::Escaped;
     return step + (is_stuck(*outcome.defect) ? " stays tangled: " : " has no valid mesh: ") +
-           outcome.defect->message();
+           outcome.defect->message() +
+           (has_escaped ? "; shorter steps ([time] dt, adaptive), an interior that follows ([interior] follow) or "
+                          "[repair] quality = \"angles\" may help"
+                        : "");
+  }
   return fmt::format("{} at time {} has regions of {:.4g} of all faces, max_region_share is {}", step,
                      outcome.record.time, outcome.too_large->share, outcome.too_large->limit);
 }

@@ -41,11 +41,12 @@ Json totals_json(const RunSummary& s) {
           {"inverted", s.inverted},         {"regions", s.regions},
           {"region_faces", s.region_faces}, {"region_faces_max", s.region_faces_max},
           {"replaced", s.replaced},         {"share_mean", s.share_mean},
-          {"share_max", s.share_max},       {"retries", s.retries}};
+          {"share_max", s.share_max},       {"retries", s.retries},
+          {"quality_moves", s.quality_moves}};
 }
 
 Json times_json(const PhaseTimes& ms) {
-  return {{"move", ms.move},       {"detect", ms.detect},
+  return {{"move", ms.move},       {"interior", ms.interior}, {"detect", ms.detect},
           {"explore", ms.explore}, {"triangulate", ms.triangulate},
           {"splice", ms.splice},   {"quality", ms.quality},
           {"total", ms.total},     {"write", ms.write}};
@@ -69,7 +70,9 @@ void add_step(RunSummary& summary, const StepRecord& record, int n_faces) {
   summary.replaced += repair.replaced;
   summary.escaped_max = std::max(summary.escaped_max, repair.escaped);
   summary.retries += repair.retries();
+  summary.quality_moves += repair.quality_moves;
   summary.ms.move += record.move_ms;
+  summary.ms.interior += record.interior_ms;
   summary.ms.detect += repair.detect_ms;
   summary.ms.explore += repair.explore_ms;
   summary.ms.triangulate += repair.triangulate_ms;

@@ -1,6 +1,7 @@
 #include "sim/scenario.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -97,7 +98,7 @@ void read_blend(TomlTable& table, MotionSpec& motion) {
 void check_motion(const MotionSpec& motion) {
   with_lines(motion, [&] {
     make_field(motion.field, motion.parameters);
-    parse_restriction(motion.on, motion.blend);
+    for (const std::string& part : motion.on) parse_restriction(part, motion.blend);
   });
 }
 
@@ -115,27 +116,34 @@ void resolve_files(const std::filesystem::path& folder, MotionSpec& motion) {
     if (field.name != motion.field) continue;
     for (const auto& parameter : field.parameters) {
       const auto given = motion.parameters.find(parameter.name);
-      if (parameter.kind != ParameterKind::File || given == motion.parameters.end()) continue;
+      if (!is_file(parameter.kind) || given == motion.parameters.end()) continue;
       if (auto* name = std::get_if<std::string>(&given->second); name && !name->empty())
         *name = (folder / *name).lexically_normal().string();
     }
   }
 }
 
-MotionSpec read_motion(const toml::table& source, const std::filesystem::path& folder) {
-  TomlTable table(source, "[[motion]]");
-  MotionSpec motion;
+// The field and its parameters; `others` are keys that are none.
+void read_field(TomlTable& table, const std::string& name, const std::vector<std::string>& others,
+                const std::filesystem::path& folder, MotionSpec& motion) {
   motion.where = table.where();
   for (const auto& key : table.keys()) motion.key_where[key] = table.where(key);
   const auto field = table.text("field");
-  if (!field) throw error_at(motion.where, "[[motion]]: field expected, one `kinemesh list` names");
+  if (!field) throw error_at(motion.where, name + ": field expected, one `kinemesh list` names");
   motion.field = *field;
   require_one_of(table, "field", motion.field, names_of(fields()));
-  motion.on = table.text("on").value_or(motion.on);
-  read_blend(table, motion);
   for (const auto& key : table.keys())
-    if (key != "field" && key != "on" && key != "blend") motion.parameters.emplace(key, *table.value(key));
+    if (key != "field" && std::ranges::find(others, key) == others.end())
+      motion.parameters.emplace(key, *table.value(key));
   resolve_files(folder, motion);
+}
+
+MotionSpec read_motion(const toml::table& source, const std::filesystem::path& folder) {
+  TomlTable table(source, "[[motion]]");
+  MotionSpec motion;
+  motion.on = table.texts("on").value_or(motion.on);
+  read_blend(table, motion);
+  read_field(table, "[[motion]]", {"on", "blend"}, folder, motion);
   check_motion(motion);
   add_defaults(motion);
   return motion;
@@ -144,8 +152,61 @@ MotionSpec read_motion(const toml::table& source, const std::filesystem::path& f
 std::vector<MotionSpec> read_motions(TomlTable& root, const std::filesystem::path& folder) {
   std::vector<MotionSpec> motions;
   for (const auto* table : root.tables("motion")) motions.push_back(read_motion(*table, folder));
-  if (motions.empty()) throw error_at(root.where(), "at least one [[motion]] expected");
   return motions;
+}
+
+BodyScenario read_body(const toml::table& source, const std::filesystem::path& folder) {
+  TomlTable table(source, "[[body]]");
+  BodyScenario body;
+  body.where = table.where();
+  for (const auto& key : table.keys()) body.key_where[key] = table.where(key);
+  const auto on = table.texts("on");
+  if (!on) throw error_at(body.where, "[[body]]: on expected, marker:NAME or label:N");
+  body.on = *on;
+  for (const auto* motion : table.tables("motion")) {
+    TomlTable inner(*motion, "[[body]] motion");
+    MotionSpec& spec = body.motions.emplace_back();
+    read_field(inner, "[[body]] motion", {}, folder, spec);
+    check_motion(spec);
+    add_defaults(spec);
+  }
+  table.refuse_other_keys();
+  return body;
+}
+
+std::vector<BodyScenario> read_bodies(TomlTable& root, const std::filesystem::path& folder) {
+  std::vector<BodyScenario> bodies;
+  for (const auto* table : root.tables("body")) bodies.push_back(read_body(*table, folder));
+  return bodies;
+}
+
+std::map<int, double> read_stiffness(const toml::table& source) {
+  TomlTable table(source, "[interior] stiffness");
+  std::map<int, double> stiffness;
+  for (const auto& key : table.keys()) {
+    int label = 0;
+    const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), label);
+    if (error != std::errc() || end != key.data() + key.size())
+      table.fail(key, "a label, that is an integer, expected");
+    stiffness[label] = *table.positive(key);
+  }
+  return stiffness;
+}
+
+InteriorSpec read_interior(TomlTable& table, bool has_bodies) {
+  InteriorSpec interior;
+  interior.where = table.where();
+  const auto follow = table.text("follow").value_or(has_bodies ? "harmonic" : "none");
+  require_one_of(table, "follow", follow, {"harmonic", "elastic", "none"});
+  interior.options.follow = follow == "harmonic" ? Follow::Harmonic
+                            : follow == "elastic" ? Follow::Elastic
+                                                  : Follow::None;
+  if (const auto* stiffness = table.table("stiffness")) {
+    if (follow == "none") table.fail("stiffness", "belongs to an interior that follows");
+    interior.options.stiffness = read_stiffness(*stiffness);
+  }
+  table.refuse_other_keys();
+  return interior;
 }
 
 BorderCondition read_condition(TomlTable& table, const std::string& key) {
@@ -222,8 +283,9 @@ TimeSpec read_time(TomlTable& table) {
   return time;
 }
 
-RepairSpec read_repair(TomlTable& table) {
+RepairSpec read_repair(TomlTable& table, bool has_bodies) {
   RepairSpec repair;
+  if (has_bodies) repair.quality = "angles";
   repair.strategy = table.text("strategy").value_or(repair.strategy);
   require_one_of(table, "strategy", repair.strategy, names_of(strategies()));
   repair.quality = table.text("quality").value_or(repair.quality);
@@ -256,17 +318,23 @@ Scenario read_scenario(const toml::table& document, const std::filesystem::path&
   Scenario scenario;
   scenario.file = file;
   auto mesh = section(root, "mesh"), border = section(root, "border"), time = section(root, "time"),
-       repair = section(root, "repair"), output = section(root, "output");
+       repair = section(root, "repair"), output = section(root, "output"), interior = section(root, "interior");
   root.known("motion");
+  root.known("body");
   root.refuse_other_keys();
   for (const std::string_view key : {"mesh", "time"})
     if (!root.has(key)) throw error_at(root.where(), "[" + std::string(key) + "] expected");
   const auto folder = std::filesystem::absolute(file).parent_path();
   scenario.mesh = read_mesh_spec(mesh, folder);
+  scenario.bodies = read_bodies(root, folder);
   scenario.motions = read_motions(root, folder);
+  const bool has_bodies = !scenario.bodies.empty();
+  if (!has_bodies && scenario.motions.empty())
+    throw error_at(root.where(), "at least one [[body]] or [[motion]] expected");
+  scenario.interior = read_interior(interior, has_bodies);
   scenario.border = read_border(border);
   scenario.time = read_time(time);
-  scenario.repair = read_repair(repair);
+  scenario.repair = read_repair(repair, has_bodies);
   scenario.output = read_output(output);
   return scenario;
 }
@@ -274,6 +342,11 @@ Scenario read_scenario(const toml::table& document, const std::filesystem::path&
 }  // namespace
 
 Where MotionSpec::where_of(std::string_view key) const {
+  const auto found = key_where.find(key);
+  return found == key_where.end() ? where : found->second;
+}
+
+Where BodyScenario::where_of(std::string_view key) const {
   const auto found = key_where.find(key);
   return found == key_where.end() ? where : found->second;
 }

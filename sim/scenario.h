@@ -1,4 +1,4 @@
-// What a run is made of, as a TOML file describes it: mesh, motions, border, time, repair, output.
+// What a run is made of, as a TOML file describes it: mesh, bodies, motions, interior, border, time, repair, output.
 //
 // Times, lengths and angles are in the user's units and radians unless a name says `_deg`. The structs hold
 // checked values with all defaults in place; `Where` remembers the line for errors that only the mesh can
@@ -16,6 +16,7 @@
 
 #include "motion/border.h"
 #include "motion/integrator.h"
+#include "motion/interior.h"
 #include "motion/parameters.h"
 #include "sim/where.h"
 
@@ -33,16 +34,32 @@ struct MeshSpec {
   Where where;
 };
 
-// [[motion]]
+// [[motion]], or one of a body's
 struct MotionSpec {
   std::string field;
   FieldParameters parameters;
-  std::string on = "all";
+  std::vector<std::string> on{"all"};  // of a body's: unused
   std::optional<std::array<double, 2>> blend;  // lengths
   Where where;
   std::map<std::string, Where, std::less<>> key_where;
 
   Where where_of(std::string_view key) const;  // of the key, or of the motion
+};
+
+// [[body]]
+struct BodyScenario {
+  std::vector<std::string> on;
+  std::vector<MotionSpec> motions;
+  Where where;
+  std::map<std::string, Where, std::less<>> key_where;
+
+  Where where_of(std::string_view key) const;  // of the key, or of the body
+};
+
+// [interior]
+struct InteriorSpec {
+  InteriorOptions options = {.follow = Follow::None};  // harmonic where there is a body
+  Where where;
 };
 
 // [border]
@@ -91,7 +108,9 @@ struct OutputSpec {
 struct Scenario {
   std::filesystem::path file;  // as given
   MeshSpec mesh;
-  std::vector<MotionSpec> motions;  // at least one
+  std::vector<BodyScenario> bodies;
+  std::vector<MotionSpec> motions;  // one body or motion at least
+  InteriorSpec interior;
   BorderSpec border;
   TimeSpec time;
   RepairSpec repair;

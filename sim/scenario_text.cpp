@@ -47,6 +47,14 @@ std::string to_text(const std::string& text) {
   return out.str();
 }
 
+// One text, or a list of several.
+std::string to_text(const std::vector<std::string>& texts) {
+  if (texts.size() == 1) return to_text(texts.front());
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + to_text(text);
+  return "[" + list + "]";
+}
+
 std::string to_text(std::int64_t number) {
   return std::to_string(number);
 }
@@ -78,6 +86,8 @@ class Writer {
     text_ += key_text(key) + " = " + to_text(value) + "\n";
   }
 
+  void raw_line(const std::string& key, const std::string& value) { text_ += key + " = " + value + "\n"; }
+
   const std::string& text() const { return text_; }
 
  private:
@@ -105,6 +115,34 @@ void write(Writer& out, const MotionSpec& motion) {
     std::visit([&out, &key = key](const auto& v) { out.line(key, v); }, value);
   out.line("on", motion.on);
   if (motion.blend) out.line("blend", std::span<const double>(*motion.blend));
+}
+
+// { field = "pitch", center = [0.25, 0.0], ... }
+std::string inline_text(const MotionSpec& motion) {
+  std::string text = "{field = " + to_text(motion.field);
+  for (const auto& [key, value] : motion.parameters)
+    text += ", " + key_text(key) + " = " + std::visit([](const auto& v) { return to_text(v); }, value);
+  return text + "}";
+}
+
+void write(Writer& out, const BodyScenario& body) {
+  out.header("[[body]]");
+  out.line("on", body.on);
+  std::string list;
+  for (const MotionSpec& motion : body.motions) list += (list.empty() ? "" : ", ") + inline_text(motion);
+  out.raw_line("motion", "[" + list + "]");
+}
+
+// Nothing where nothing follows, as in scenarios without bodies.
+void write(Writer& out, const InteriorSpec& interior) {
+  const auto& [follow, stiffness, tolerance, most] = interior.options;
+  if (follow == Follow::None) return;
+  out.header("[interior]");
+  out.line("follow", std::string(follow == Follow::Harmonic ? "harmonic" : "elastic"));
+  std::string list;
+  for (const auto& [label, value] : stiffness)
+    list += (list.empty() ? "" : ", ") + std::to_string(label) + " = " + to_text(value);
+  if (!list.empty()) out.raw_line("stiffness", "{" + list + "}");
 }
 
 void write(Writer& out, const BorderSpec& border) {
@@ -146,7 +184,9 @@ void write(Writer& out, const OutputSpec& output) {
 std::string to_toml(const Scenario& scenario) {
   Writer out;
   write(out, scenario.mesh);
+  for (const auto& body : scenario.bodies) write(out, body);
   for (const auto& motion : scenario.motions) write(out, motion);
+  write(out, scenario.interior);
   write(out, scenario.border);
   write(out, scenario.time);
   write(out, scenario.repair);

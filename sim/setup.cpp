@@ -58,10 +58,14 @@ void require_marker(const Mesh& mesh, const std::string& name, const Where& wher
                             (names.empty() ? ", which has none" : suggestion(name, names)));
 }
 
+const RecordedPositions* record_in(const AnyField& field) {
+  const auto* displacement = std::get_if<std::shared_ptr<const DisplacementField>>(&field);
+  return displacement ? dynamic_cast<const RecordedPositions*>(displacement->get()) : nullptr;
+}
+
 // A record fits one mesh and some times only.
 void require_record(const AnyField& field, const Mesh& mesh, const Scenario& scenario, const Where& where) {
-  const auto* displacement = std::get_if<std::shared_ptr<const DisplacementField>>(&field);
-  const auto* record = displacement ? dynamic_cast<const RecordedPositions*>(displacement->get()) : nullptr;
+  const auto* record = record_in(field);
   if (!record) return;
   try {
     record->require_initial(mesh.user_positions());
@@ -76,15 +80,58 @@ void require_record(const AnyField& field, const Mesh& mesh, const Scenario& sce
 std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
   std::vector<MotionTerm> terms;
   for (const MotionSpec& motion : scenario.motions) {
-    terms.push_back(
-        {make_field(motion.field, motion.parameters), parse_restriction(motion.on, motion.blend)});
-    require_record(terms.back().field, mesh, scenario, motion.where_of("file"));
-    if (const auto* on = std::get_if<OnMarker>(&terms.back().where.on)) {
-      require_marker(mesh, on->name, motion.where_of("on"));
-      border.by_marker.emplace(on->name, BorderCondition::Moving);
+    MotionTerm& term = terms.emplace_back(MotionTerm{make_field(motion.field, motion.parameters)});
+    require_record(term.field, mesh, scenario, motion.where_of("file"));
+    for (const std::string& part : motion.on) {
+      const Restriction restriction = parse_restriction(part, motion.blend);
+      if (const auto* on = std::get_if<OnMarker>(&restriction.on)) {
+        require_marker(mesh, on->name, motion.where_of("on"));
+        border.by_marker.emplace(on->name, BorderCondition::Moving);
+      }
+      if (&part == &motion.on.front())
+        term.where = restriction;
+      else
+        term.also.push_back(restriction);
     }
   }
   return terms;
+}
+
+// Likewise. A marker that [border] holds still cannot be a body's.
+std::vector<BodySpec> bodies_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
+  std::vector<BodySpec> bodies;
+  for (const BodyScenario& body : scenario.bodies) {
+    BodySpec& spec = bodies.emplace_back(BodySpec{body.on, {}});
+    for (const std::string& part : body.on) {
+      if (!part.starts_with("marker:")) continue;
+      const std::string marker = part.substr(7);
+      require_marker(mesh, marker, body.where_of("on"));
+      const auto [condition, is_new] = border.by_marker.emplace(marker, BorderCondition::Moving);
+      if (!is_new && condition->second != BorderCondition::Moving)
+        throw error_at(scenario.border.marker_where.at(marker),
+                       "the marker '" + marker + "' is of a body, which moves it; \"moving\" or nothing expected");
+    }
+    for (const MotionSpec& motion : body.motions) spec.motion.push_back(make_field(motion.field, motion.parameters));
+  }
+  return bodies;
+}
+
+// A body's record holds its vertices, and may hold others.
+void require_body_records(const Scenario& scenario, const Motion& motion, const std::vector<BodySpec>& bodies) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::vector<Point> places;
+    for (const int v : motion.bodies()[b].vertices()) places.push_back(motion.initial_positions()[v]);
+    for (std::size_t i = 0; i < bodies[b].motion.size(); ++i) {
+      const auto* record = record_in(bodies[b].motion[i]);
+      if (!record) continue;
+      try {
+        record->require_all(places);
+        record->require_times(0.0, scenario.time.end);
+      } catch (const InputError& error) {
+        throw error_at(scenario.bodies[b].motions[i].where_of("file"), error.what());
+      }
+    }
+  }
 }
 
 BorderConditions border_of(const Scenario& scenario, const Mesh& mesh) {
@@ -93,14 +140,20 @@ BorderConditions border_of(const Scenario& scenario, const Mesh& mesh) {
   return scenario.border.conditions;
 }
 
-// "motion.1.on" is about that key of the second [[motion]], anything else about a marker in [border].
+// Of "motion.1.on": that key of the second of these; nothing for another prefix.
+template <class Items>
+std::optional<Where> where_in(const Items& items, std::string_view prefix, std::string_view key) {
+  if (!key.starts_with(prefix)) return std::nullopt;
+  size_t index = 0;
+  const char* end = std::from_chars(key.data() + prefix.size(), key.data() + key.size(), index).ptr;
+  if (index >= items.size() || end == key.data() + key.size()) return std::nullopt;
+  return items[index].where_of(key.substr(static_cast<size_t>(end - key.data()) + 1));
+}
+
+// What is about no [[motion]] and no [[body]] is about a marker in [border].
 Where where_of(const Scenario& scenario, std::string_view key) {
-  if (key.starts_with("motion.")) {
-    size_t index = 0;
-    const char* end = std::from_chars(key.data() + 7, key.data() + key.size(), index).ptr;
-    if (index < scenario.motions.size() && end != key.data() + key.size())
-      return scenario.motions[index].where_of(key.substr(static_cast<size_t>(end - key.data()) + 1));
-  }
+  if (const auto where = where_in(scenario.motions, "motion.", key)) return *where;
+  if (const auto where = where_in(scenario.bodies, "body.", key)) return *where;
   const auto found = scenario.border.marker_where.find(key);
   return found == scenario.border.marker_where.end() ? Where{scenario.file.string(), 0} : found->second;
 }
@@ -140,17 +193,21 @@ StepperOptions stepper_options(const RepairSpec& repair) {
 SetUp set_up(const Scenario& scenario) {
   ReadResult read = data_of(scenario.mesh);
   SetUp made = set_up(scenario, mesh_of(scenario.mesh, read.mesh));
-  made.notes = std::move(read.notes);
+  made.notes.insert(made.notes.begin(), read.notes.begin(), read.notes.end());
   return made;
 }
 
 SetUp set_up(const Scenario& scenario, Mesh mesh) {
   BorderConditions border = border_of(scenario, mesh);
+  const auto bodies = bodies_of(scenario, mesh, border);
   auto terms = terms_of(scenario, mesh, border);
   try {
     require_still_hull(scenario, mesh, border);
-    Motion motion(mesh, std::move(terms), std::move(border), scenario.time.integrator);
-    return {std::move(mesh), std::move(motion), {}};
+    Motion motion(mesh, std::move(terms), std::move(border), scenario.time.integrator, bodies,
+                  scenario.interior.options);
+    require_body_records(scenario, motion, bodies);
+    auto notes = motion.notes();
+    return {std::move(mesh), std::move(motion), std::move(notes)};
   } catch (const ParameterError& error) {
     throw error_at(where_of(scenario, error.key()), error.what());
   }

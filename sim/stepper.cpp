@@ -87,6 +87,16 @@ class ChangesInPlace {
   ChangeTracker* tracker_;
 };
 
+// The border and what is fixed is known, all else follows.
+std::vector<Role> border_roles(const Mesh& mesh) {
+  std::vector<Role> roles(mesh.n_vertices(), Role::Free);
+  for (const Constraint& c : mesh.constraints())
+    if (c.is_border()) roles[c.from] = roles[c.to] = Role::Known;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (mesh.is_fixed(v)) roles[v] = Role::Known;
+  return roles;
+}
+
 void require_forward(double dt) {
   if (!std::isfinite(dt) || dt < 0) throw InputError("time step: a finite number, not negative, expected");
 }
@@ -100,6 +110,7 @@ Stepper::Stepper(Mesh&& mesh, const StepperOptions& options, double time, int st
       repair_{.allow_escaped = options.allow_escaped, .retain = options.retain},
       max_region_share_(options.max_region_share),
       next_(mesh_.positions().begin(), mesh_.positions().end()),
+      interior_(options.interior),
       time_(time),
       step_(steps_done) {
   if (std::isfinite(max_region_share_)) tracker_ = std::make_unique<ChangeTracker>(mesh_);
@@ -117,19 +128,23 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
 
   if (!knows_minima_) minima_.reset(mesh_.n_faces());
   knows_minima_ = false;
+  interior_ms_ = 0.0;
+  has_followed_ = false;
   outcome.defect = move(std::span<Point>(next_));
   if (!outcome.defect) {
     follow(mesh_, next_);
     moved_.find(mesh_.positions(), next_);
     outcome.defect = hull_defect(mesh_, next_);
   }
-  outcome.record.move_ms = clock.milliseconds();
+  outcome.record.interior_ms = interior_ms_;
+  outcome.record.move_ms = clock.milliseconds() - interior_ms_;
 
   if (!outcome.defect) repair_moved(outcome);
   if (outcome.defect) add_time(*outcome.defect, end_time);
   if (outcome) {
     time_ = end_time;
     ++step_;
+    if (has_followed_) following_->accept();
     outcome.record.accepted = true;
   }
   refresh_positions();
@@ -257,12 +272,75 @@ StepOutcome Stepper::step_to(const Motion& motion, double end_time) {
 
 StepOutcome Stepper::step_by(const Motion& motion, double end_time, double dt) {
   require_forward(dt);
-  const auto number = static_cast<std::uint64_t>(step_);
+  const TimeStep step{time_, end_time, dt, static_cast<std::uint64_t>(step_)};
+  return advance(end_time, dt, [&](std::span<Point> next) { return move(motion, step, next); });
+}
+
+std::optional<Defect> Stepper::move(const Motion& motion, const TimeStep& step, std::span<Point> next) {
+  const std::span<const Point> now = mesh_.positions();
+  motion.advance(now, step, next);
+  auto defect = non_finite_defect(mesh_, next, [&](int v) { return motion.describe_non_finite(v, now, step); });
+  if (defect || motion.roles().empty()) return defect;
+  return follow(step.t1, next, [&] { return following(motion.interior()).follow(mesh_, motion, step, next); });
+}
+
+// solve() puts the interior where it follows the border to; it may have to go too far for numbers to hold.
+template <class Solve>
+std::optional<Defect> Stepper::follow(double end_time, std::span<Point> next, const Solve& solve) {
+  const Stopwatch clock;
+  const InteriorSolution solution = solve();
+  interior_ms_ = clock.milliseconds();
+  if (!solution.converged)
+    throw InputError("the interior does not follow the border in step " + std::to_string(step_ + 1) + ", at time " +
+                     exact_text(end_time) + ": no solution after " + std::to_string(solution.iterations) +
+                     " iterations, relative residual " + exact_text(solution.residual));
+  has_followed_ = true;
+  return non_finite_defect(mesh_, next, [&](int) { return "following the border to time " + exact_text(end_time); });
+}
+
+Following& Stepper::following(const InteriorOptions& options) {
+  if (!following_) following_.emplace(mesh_, options, std::move(start_));
+  return *following_;
+}
+
+std::vector<Point> Stepper::moved(const Motion& motion, double end_time) {
+  std::vector<Point> next(mesh_.positions().begin(), mesh_.positions().end());
+  (void)move(motion, {time_, end_time, end_time - time_, static_cast<std::uint64_t>(step_)}, next);
+  return next;
+}
+
+StepOutcome Stepper::step_border(std::span<const int> vertices, std::span<const Point> positions, double dt) {
+  return step_border_by(vertices, positions, time_ + dt, dt);
+}
+
+StepOutcome Stepper::step_border_to(std::span<const int> vertices, std::span<const Point> positions,
+                                    double end_time) {
+  return step_border_by(vertices, positions, end_time, end_time - time_);
+}
+
+StepOutcome Stepper::step_border_by(std::span<const int> vertices, std::span<const Point> positions,
+                                    double end_time, double dt) {
+  require_forward(dt);
+  if (interior_.follow == Follow::None) throw InputError("step_border: an interior that follows expected");
+  if (vertices.size() != positions.size())
+    throw InputError(std::to_string(positions.size()) + " positions for " + std::to_string(vertices.size()) +
+                     " vertices, as many expected");
+  std::vector<Role> roles = border_roles(mesh_);
+  std::vector<char> is_given(mesh_.n_user_vertices(), 0);
+  for (const int user : vertices) {
+    if (user < 0 || user >= mesh_.n_user_vertices())
+      throw InputError("vertex " + std::to_string(user) + ", expected a number from 0 and below " +
+                       std::to_string(mesh_.n_user_vertices()));
+    if (std::exchange(is_given[user], 1)) throw InputError("vertex " + std::to_string(user) + " comes twice");
+    roles[mesh_.vertex_of_user(user)] = Role::Known;
+  }
   return advance(end_time, dt, [&](std::span<Point> next) {
-    const std::span<const Point> now = mesh_.positions();
-    motion.advance(now, time_, dt, number, next);
-    return non_finite_defect(mesh_, next,
-                             [&](int v) { return motion.describe_non_finite(v, now, time_, dt, number); });
+    std::ranges::copy(mesh_.positions(), next.begin());
+    for (std::size_t i = 0; i < vertices.size(); ++i) next[mesh_.vertex_of_user(vertices[i])] = positions[i];
+    auto defect = non_finite_defect(
+        mesh_, next, [&](int) { return "in the positions given for time " + exact_text(end_time); });
+    if (defect) return defect;
+    return follow(end_time, next, [&] { return following(interior_).follow(mesh_, roles, dt, next); });
   });
 }
 

@@ -18,6 +18,7 @@
 
 #include "core/defect.h"
 #include "core/mesh.h"
+#include "motion/following.h"
 #include "motion/motion.h"
 #include "sim/change_tracker.h"
 #include "sim/step_changes.h"
@@ -34,6 +35,7 @@ struct StepperOptions {
   // Above it, the faces of the step's regions over all faces, both with padding, refuse the step. A limit that
   // is finite takes memory for the whole mesh, as observers do.
   double max_region_share = std::numeric_limits<double>::infinity();
+  InteriorOptions interior = {};  // of step_border; a Motion brings its own
 };
 
 // What one step did; the columns of steps.csv.
@@ -45,7 +47,8 @@ struct StepRecord {
   RepairRecord repair;          // padding included
   double min_angle_deg = 0.0;   // of the domain's faces after the step
   double min_area = 0.0;
-  double move_ms = 0.0, total_ms = 0.0;
+  double move_ms = 0.0, total_ms = 0.0;  // move: without the interior
+  double interior_ms = 0.0;              // to let it follow the border
   double measure_ms = 0.0;  // of the total, to find the angle and area above; not in steps.csv
   bool accepted = false;
 };
@@ -88,6 +91,22 @@ class Stepper {
   [[nodiscard]] StepOutcome step_to(const Motion& motion, double end_time);
   [[nodiscard]] StepOutcome step_to(std::span<const Point> positions, double end_time);
 
+  // To given positions of the border, or of some of it, one for each of `vertices` (the user's numbers); what of the
+  // border is not named stays, and so do fixed vertices that are not named; the interior follows (options.interior).
+  // Vertices of the interior may be named, too, and are then where they are asked to be. Throws InputError for
+  // numbers that are no vertex's or come twice, other counts, and an interior that is told to follow nothing.
+  [[nodiscard]] StepOutcome step_border(std::span<const int> vertices, std::span<const Point> positions, double dt);
+  [[nodiscard]] StepOutcome step_border_to(std::span<const int> vertices, std::span<const Point> positions,
+                                           double end_time);
+
+  // Where a motion would have the vertices go, in the mesh's numbering: what step_to repairs.
+  std::vector<Point> moved(const Motion& motion, double end_time);
+
+  // What the interior's next step starts from, for checkpoints; to be given to a stepper that goes on before its
+  // first step.
+  FollowingState following_state() const { return following_ ? following_->state() : start_; }
+  void set_following_state(FollowingState state) { start_ = std::move(state); }
+
   // For whoever lets the stepper hold the positions: one per user's vertex in the user's order, to be moved
   // in place and then repaired, as a step of length dt. After any step that returns they are those of the
   // mesh, so that after a refused one the move is taken back.
@@ -112,6 +131,12 @@ class Stepper {
   template <class Move>
   StepOutcome advance(double end_time, double dt, const Move& move);
   StepOutcome step_by(const Motion& motion, double end_time, double dt);
+  StepOutcome step_border_by(std::span<const int> vertices, std::span<const Point> positions, double end_time,
+                             double dt);
+  Following& following(const InteriorOptions& options);
+  std::optional<Defect> move(const Motion& motion, const TimeStep& step, std::span<Point> next);
+  template <class Solve>
+  std::optional<Defect> follow(double end_time, std::span<Point> next, const Solve& solve);
   StepOutcome step_by(std::span<const Point> positions, double end_time, double dt);
   void repair_moved(StepOutcome& outcome);
   std::optional<RegionsTooLarge> excess(const RepairRecord& record) const;
@@ -129,6 +154,11 @@ class Stepper {
   MovedBlocks moved_;          // by the step
   double max_region_share_;
   std::vector<Point> next_;       // positions after the step, then before it
+  InteriorOptions interior_;
+  std::optional<Following> following_;  // once something has been followed
+  FollowingState start_;                // of its first step
+  double interior_ms_ = 0.0;            // of the step at hand
+  bool has_followed_ = false;           // likewise
   std::vector<Point> positions_;  // what positions() hands out; empty before
   std::vector<StepObserver> observers_;
   std::unique_ptr<ChangeTracker> tracker_;  // with observers or a limit only

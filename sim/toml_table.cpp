@@ -157,6 +157,19 @@ std::optional<std::string> TomlTable::text(std::string_view key) {
   return node->as_string()->get();
 }
 
+std::optional<std::vector<std::string>> TomlTable::texts(std::string_view key) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  if (node->is_string()) return std::vector{node->as_string()->get()};
+  std::vector<std::string> texts;
+  if (const auto* list = node->as_array())
+    for (const auto& element : *list)
+      if (const auto* text = element.as_string()) texts.push_back(text->get());
+  if (texts.empty() || texts.size() != node->as_array()->size())
+    fail(key, as_written(*node) + ", a text in quotes or a list of such expected");
+  return texts;
+}
+
 std::optional<ParameterValue> TomlTable::value(std::string_view key) {
   const auto* node = find(key);
   if (!node) return std::nullopt;

@@ -1,8 +1,11 @@
 #include "untangle/new_faces.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "core/predicates.h"
 
@@ -102,6 +105,37 @@ int first_escaped(const Mesh& mesh, const NewFaces& faces) {
     }
   }
   return first;
+}
+
+double squared_distance(const Point& p, const Point& a, const Point& b) {
+  const Point way = b - a, from_a = p - a;
+  const double length = glm::dot(way, way);
+  const double share = length > 0.0 ? std::clamp(glm::dot(from_a, way) / length, 0.0, 1.0) : 0.0;
+  const Point off = from_a - share * way;
+  return glm::dot(off, off);
+}
+
+// The border or interface the vertex has crossed: of those of the label it comes from, the nearest one.
+std::string crossed_by(const Mesh& mesh, int vertex) {
+  const int home = mesh.home_label(vertex);
+  const Constraint* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Constraint& c : mesh.constraints()) {
+    if (c.left == c.right || (c.left != home && c.right != home)) continue;
+    const double d = squared_distance(mesh.position(vertex), mesh.position(c.from), mesh.position(c.to));
+    if (d < least) {
+      least = d;
+      nearest = &c;
+    }
+  }
+  if (!nearest) return {};
+  const std::string edge = "edge " + std::to_string(mesh.user_vertex(nearest->from)) + "-" +
+                           std::to_string(mesh.user_vertex(nearest->to));
+  const std::string marker =
+      nearest->marker == none ? "" : " of marker \"" + mesh.marker_names()[nearest->marker] + "\"";
+  if (nearest->is_border()) return "it has crossed the border" + marker + " near " + edge;
+  return "it has crossed the interface of labels " + std::to_string(nearest->left) + " and " +
+         std::to_string(nearest->right) + marker + " near " + edge;
 }
 
 class PatchBuilder {
@@ -283,8 +317,10 @@ std::optional<Defect> Finisher::run(const Mesh& mesh, const Hole& hole, NewFaces
   else if (auto defect = scratch_->labels.run(mesh, faces))
     return defect;
   if (const int first = allow_escaped ? none : first_escaped(mesh, faces); first != none) {
-    return Defect{
-        .kind = DefectKind::Escaped, .vertices = {mesh.user_vertex(first)}, .where = mesh.position(first)};
+    return Defect{.kind = DefectKind::Escaped,
+                  .vertices = {mesh.user_vertex(first)},
+                  .where = mesh.position(first),
+                  .detail = crossed_by(mesh, first)};
   }
   scratch_->patch.build(mesh, hole, faces, patch);
   return std::nullopt;

@@ -36,8 +36,18 @@ void print_row(const char* name, const Value& value) {
 std::string describe(const MotionSpec& motion) {
   std::string text = motion.field;
   for (const auto& [name, value] : motion.parameters) text += fmt::format(" {} = {}", name, to_string(value));
-  text += " on " + motion.on;
+  return text;
+}
+
+std::string describe_parts(const MotionSpec& motion) {
+  std::string text = fmt::format(" on {}", fmt::join(motion.on, ", "));
   if (motion.blend) text += fmt::format(", blended from {} to {}", (*motion.blend)[0], (*motion.blend)[1]);
+  return text;
+}
+
+std::string describe(const BodyScenario& body) {
+  std::string text = fmt::format("{}", fmt::join(body.on, ", "));
+  for (const MotionSpec& motion : body.motions) text += "; " + describe(motion);
   return text;
 }
 
@@ -49,7 +59,10 @@ void print_plan(const Scenario& scenario, const RunPlan& plan) {
   print_row("minimum angle", fmt::format("{:.4g} degrees", plan.min_angle_deg));
   print_row("markers",
             plan.markers.empty() ? std::string("none") : fmt::format("{}", fmt::join(plan.markers, ", ")));
-  for (const MotionSpec& motion : scenario.motions) print_row("motion", describe(motion));
+  for (const BodyScenario& body : scenario.bodies) print_row("body", describe(body));
+  for (const MotionSpec& motion : scenario.motions) print_row("motion", describe(motion) + describe_parts(motion));
+  if (const Follow follow = scenario.interior.options.follow; follow != Follow::None)
+    print_row("interior", follow == Follow::Harmonic ? "follows, harmonic" : "follows, elastic");
   print_row("time", fmt::format("{} steps of {} to {}{}", plan.steps, scenario.time.dt, plan.end_time,
                                 plan.is_adaptive ? ", fewer or more as they succeed" : ""));
   print_row("strategy", plan.strategy);

@@ -89,10 +89,19 @@ void print_summary(const UntangleArguments& arguments, const Mesh& mesh, const R
   fmt::print("written: {}\n", arguments.output);
 }
 
-int no_valid_mesh(const UntangleArguments& arguments, const Defect& defect) {
-  print_error(fmt::format("{}: {}: {}; nothing was written", arguments.mesh.path,
-                          is_stuck(defect) ? "stays tangled" : "no valid mesh exists", defect.message()));
+// hint: what else may be tried.
+int no_valid_mesh(const UntangleArguments& arguments, const Defect& defect, const std::string& hint = "") {
+  print_error(fmt::format("{}: {}: {}; nothing was written{}", arguments.mesh.path,
+                          is_stuck(defect) ? "stays tangled" : "no valid mesh exists", defect.message(), hint));
   return not_valid;
+}
+
+// Whether vertices that may move make a valid mesh possible. Pre: the mesh is as it was read.
+std::string hint_at_optimize(const UntangleArguments& arguments, Mesh& mesh) {
+  if (arguments.strategy == "optimize") return "";
+  return make_strategy("optimize")->repair(mesh, {})
+             ? "; with --strategy optimize, which moves vertices, there is one"
+             : "; --strategy optimize, which moves vertices, finds none either";
 }
 
 RepairOutcome repair_seeds(const UntangleArguments& arguments, Mesh& mesh) {
@@ -119,7 +128,7 @@ int untangle(const UntangleArguments& arguments) try {
   Mesh mesh = build(arguments.mesh, data);
   const RepairOutcome outcome = arguments.seeds.empty() ? strategy->repair(mesh, {.retain = arguments.retain})
                                                         : repair_seeds(arguments, mesh);
-  if (!outcome) return no_valid_mesh(arguments, *outcome.defect);
+  if (!outcome) return no_valid_mesh(arguments, *outcome.defect, hint_at_optimize(arguments, mesh));
 
   const MeshData repaired = mesh.domain();
   const BeforeAndAfter faces{count_bad_faces(data), count_bad_faces(repaired), count_moved(data, repaired)};

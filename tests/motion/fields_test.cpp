@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "motion/body.h"
+#include "motion/oscillation.h"
 #include "motion/compose.h"
 #include "motion/integrator.h"
 #include "motion/rigid.h"

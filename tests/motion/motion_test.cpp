@@ -11,7 +11,7 @@
 
 #include "core/measure.h"
 #include "core/predicates.h"
-#include "motion/body.h"
+#include "motion/oscillation.h"
 #include "motion/expression.h"
 #include "motion/noise.h"
 #include "motion/rigid.h"
