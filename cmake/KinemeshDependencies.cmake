@@ -11,3 +11,4 @@ find_package(tomlplusplus CONFIG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(fmt CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
+find_package(CHOLMOD MODULE REQUIRED)  # cmake/FindCHOLMOD.cmake

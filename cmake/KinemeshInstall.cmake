@@ -31,4 +31,5 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/kinemesh-config-ver
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/kinemesh-config.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/kinemesh-config-version.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/FindCHOLMOD.cmake
   DESTINATION ${KINEMESH_PACKAGE_DIR})

@@ -14,6 +14,7 @@ build=(
   libopenmesh-dev   # half-edges
   libpugixml-dev    # VTU
   librsvg2-dev      # figures as PNG
+  libsuitesparse-dev # CHOLMOD: sparse Cholesky factorization
   libtbb-dev        # threads
   libtomlplusplus-dev
   nlohmann-json3-dev
@@ -25,7 +26,6 @@ tests=(
   libbenchmark-dev
   libgmock-dev libgtest-dev
   librapidcheck-dev # properties over random cases
-  libsuitesparse-dev # CHOLMOD, for the heat example
   python3-meshio    # reads what we write
   clang libclang-rt-14-dev  # libFuzzer
   valgrind          # counts instructions
