@@ -163,7 +163,7 @@ Where where_of(const Scenario& scenario, std::string_view key) {
 std::optional<int> leaving_hull_vertex(const Mesh& mesh, const Freedom& freedom) {
   for (int h = 0; h < 2 * mesh.n_edges(); ++h)
     if (const int v = mesh.to(h); mesh.face_of(h) == none && (freedom.of(v) == BorderCondition::Moving ||
-                                                              freedom.allowed(v, {1.0, 0.0}).y != 0.0))
+                                                              freedom.allowed(v, mesh.position(v), {1.0, 0.0}).y != 0.0))
       return v;
   return std::nullopt;
 }

@@ -132,7 +132,7 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   has_followed_ = false;
   outcome.defect = move(std::span<Point>(next_));
   if (!outcome.defect) {
-    follow(mesh_, next_);
+    kinemesh::follow(mesh_, next_);
     moved_.find(mesh_.positions(), next_);
     outcome.defect = hull_defect(mesh_, next_);
   }
