@@ -85,6 +85,7 @@ else
   aims explored 1000000 20000
   aims local-growth 400000 20000
   aims threads 1000000 20000
+  aims interior 1000000 20000
   aims memory 1000000 100000
   aims file 1000000 20000
 

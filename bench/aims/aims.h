@@ -49,6 +49,7 @@ void fixed_tangle(int n);  // up to n
 void explored(int n);
 void local_growth(int n);  // up to n
 void two_threads(int n);
+void interior(int n);
 void memory(int n);
 void huge(int n);
 void first_step_of_file(int n);

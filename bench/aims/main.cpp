@@ -26,6 +26,7 @@ constexpr Subject subjects[] = {
     {"explored", explored, 1'000'000},
     {"local-growth", local_growth, 400'000},
     {"threads", two_threads, 1'000'000},
+    {"interior", interior, 1'000'000},
     {"memory", memory, 1'000'000},
     {"huge", huge, 50'000'000},
     {"file", first_step_of_file, 1'000'000},
