@@ -78,7 +78,7 @@ typedef struct kinemesh_stepper kinemesh_stepper;
 
 typedef struct kinemesh_options {
   const char* strategy; /* how a tangled mesh is repaired; NULL: "global" */
-  const char* quality;  /* what is done for the shape of the faces after it: "none", "delaunay", "smooth" */
+  const char* quality;  /* what is done for the shape of the faces after it: "none", "delaunay", "smooth", "angles" */
   double frame; /* margin of padding around the domain, in diagonals of its bounding box; 0: its convex hull
                    must not move */
   int32_t allow_escaped; /* not 0: vertices may end on the wrong side of a border or interface */
@@ -103,7 +103,7 @@ typedef struct kinemesh_step {
   int32_t flat;         /* faces it left without area */
   int32_t regions;      /* replaced */
   int32_t replaced;     /* faces in them that were rewritten */
-  int32_t flips;        /* for quality "delaunay" */
+  int32_t flips;        /* for quality "delaunay" and "angles" */
   double min_angle_deg; /* of the domain, after the step */
   double min_area;
 } kinemesh_step;

@@ -36,6 +36,9 @@ class FaceMinima {
   // A sweep has proved all faces of the stretch upright, padding included, and nothing has changed since.
   bool is_upright(int stretch) const { return known_[stretch] == Known::Upright; }
 
+  // Of a stretch as of the last update.
+  const Minima& of_stretch(int stretch) const { return minima_[stretch]; }
+
   // These faces have been rewritten, or their corners have moved.
   void outdate(std::span<const int> faces);
 

@@ -4,6 +4,7 @@
 
 namespace kinemesh {
 
+// Without what the quality pass is told, which no step without valid mesh gets to.
 template <class Archive, class S>
 requires binary::Is<S, StepperOptions>
 void members(Archive& archive, S& options) {

@@ -283,6 +283,14 @@ TimeSpec read_time(TomlTable& table) {
   return time;
 }
 
+// Below 60 degrees; said with quality "angles" only.
+std::optional<double> read_angle(TomlTable& table, const std::string& quality) {
+  const auto angle = table.positive("angle");
+  if (angle && quality != "angles") table.fail("angle", "has a meaning with quality = \"angles\" only");
+  if (angle && !(*angle < 60.0)) table.fail("angle", "a number of degrees below 60 expected");
+  return angle;
+}
+
 RepairSpec read_repair(TomlTable& table, bool has_bodies) {
   RepairSpec repair;
   if (has_bodies) repair.quality = "angles";
@@ -290,6 +298,7 @@ RepairSpec read_repair(TomlTable& table, bool has_bodies) {
   require_one_of(table, "strategy", repair.strategy, names_of(strategies()));
   repair.quality = table.text("quality").value_or(repair.quality);
   require_one_of(table, "quality", repair.quality, names_of(qualities()));
+  repair.angle = read_angle(table, repair.quality).value_or(repair.angle);
   repair.allow_escaped = table.boolean("allow_escaped").value_or(repair.allow_escaped);
   repair.retain = table.boolean("retain").value_or(repair.retain);
   table.refuse_other_keys();

@@ -94,6 +94,7 @@ std::optional<int> steps_to_reach(double end, double dt);
 struct RepairSpec {
   std::string strategy = "global";
   std::string quality = "none";
+  double angle = 25.0;  // degrees; of quality "angles"
   bool allow_escaped = false;
   bool retain = false;
 };

@@ -168,6 +168,7 @@ void write(Writer& out, const RepairSpec& repair) {
   out.header("[repair]");
   out.line("strategy", repair.strategy);
   out.line("quality", repair.quality);
+  if (repair.quality == "angles") out.line("angle", repair.angle);
   out.line("allow_escaped", repair.allow_escaped);
   out.line("retain", repair.retain);
 }

@@ -187,7 +187,8 @@ StepperOptions stepper_options(const RepairSpec& repair) {
   return {.strategy = repair.strategy,
           .allow_escaped = repair.allow_escaped,
           .retain = repair.retain,
-          .quality = repair.quality};
+          .quality = repair.quality,
+          .angle = repair.angle};
 }
 
 SetUp set_up(const Scenario& scenario) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh.h"
+#include "untangle/quality/quality_pass.h"
 #include "untangle/strategy.h"
 
 namespace kinemesh {
@@ -38,6 +39,8 @@ struct StepChanges {
   std::span<const Point> positions_before;   // in the mesh's numbering
   const RepairRecord& repair;                // counts, and all regions
   const std::vector<ChangedPatch>& patches;  // by their smallest face
+  // What the quality pass has moved besides, after the repair, and from where: the user's numbers, ascending.
+  std::span<const MovedVertex> moved_by_quality;
 
   // Of a user's vertex.
   const Point& before(int vertex) const { return positions_before[mesh.vertex_of_user(vertex)]; }

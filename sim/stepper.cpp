@@ -11,6 +11,7 @@
 #include "core/measure.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "untangle/quality/around.h"
 
 namespace kinemesh {
 namespace {
@@ -106,7 +107,7 @@ void require_forward(double dt) {
 Stepper::Stepper(Mesh&& mesh, const StepperOptions& options, double time, int steps_done)
     : mesh_(std::move(mesh)),
       strategy_(make_strategy(options.strategy)),
-      quality_(make_quality(options.quality, mesh_)),
+      quality_(make_quality(options.quality, mesh_, {options.angle, options.freedom})),
       repair_{.allow_escaped = options.allow_escaped, .retain = options.retain},
       max_region_share_(options.max_region_share),
       next_(mesh_.positions().begin(), mesh_.positions().end()),
@@ -168,6 +169,7 @@ void Stepper::repair_moved(StepOutcome& outcome) {
     tracker_->note(outcome.record.repair.regions, {});
     return;
   }
+  outdate_repaired(outcome.record.repair);
   improve(outcome.record.repair);
   if (tracker_) tell_observers(outcome.record);
   rewritten.keep();
@@ -179,14 +181,24 @@ void Stepper::tell_observers(const StepRecord& record) {
   tracker_->note(record.repair.regions, quality_->flipped_faces());
   if (observers_.empty()) return;
   const auto patches = tracker_->patches(mesh_, record.repair.regions);
+  const auto moved = moved_by_quality();
   const StepChanges changes{.step = record.step,
                             .time = record.time,
                             .dt = record.dt,
                             .mesh = mesh_,
                             .positions_before = next_,
                             .repair = record.repair,
-                            .patches = patches};
+                            .patches = patches,
+                            .moved_by_quality = moved};
   for (const auto& observer : observers_) observer(changes);
+}
+
+std::vector<MovedVertex> Stepper::moved_by_quality() const {
+  const auto moved = quality_->moved_vertices();
+  std::vector<MovedVertex> by_user(moved.begin(), moved.end());
+  for (auto& [vertex, before] : by_user) vertex = mesh_.user_vertex(vertex);
+  std::ranges::sort(by_user, {}, &MovedVertex::vertex);
+  return by_user;
 }
 
 std::optional<RegionsTooLarge> Stepper::excess(const RepairRecord& record) const {
@@ -195,13 +207,28 @@ std::optional<RegionsTooLarge> Stepper::excess(const RepairRecord& record) const
   return RegionsTooLarge{share, max_region_share_};
 }
 
-// What detection has measured holds but for the faces that were rewritten since.
+// What detection has measured holds but for what was changed since.
+void Stepper::outdate_repaired(const RepairRecord& record) {
+  if (strategy_->moves_vertices()) return minima_.reset(mesh_.n_faces());
+  for (const RegionRecord& region : record.regions) minima_.outdate({region.faces.data(), region.faces.size()});
+}
+
+void Stepper::outdate_improved() {
+  minima_.outdate(quality_->flipped_faces());
+  for (const auto& [vertex, before] : quality_->moved_vertices()) {
+    for_each_outgoing(mesh_, vertex, [&](int h) {
+      if (const int face = mesh_.face_of(h); face != none) minima_.outdate({&face, 1});
+    });
+  }
+}
+
 void Stepper::measure(StepOutcome& outcome) {
   const Stopwatch clock;
   StepRecord& record = outcome.record;
-  if (!outcome || strategy_->moves_vertices() || quality_->moves_vertices()) minima_.reset(mesh_.n_faces());
-  for (const RegionRecord& region : record.repair.regions) minima_.outdate({region.faces.data(), region.faces.size()});
-  minima_.outdate(quality_->flipped_faces());
+  if (outcome)
+    outdate_improved();
+  else
+    minima_.reset(mesh_.n_faces());
   const Minima minima = minima_.update(mesh_);
   record.vertices = mesh_.n_user_vertices();
   record.faces = mesh_.n_user_faces();
@@ -216,7 +243,10 @@ void Stepper::measure(StepOutcome& outcome) {
 void Stepper::improve(RepairRecord& record) {
   const Stopwatch clock;
   const auto before = step_ == 0 ? std::span<const Point>() : std::span<const Point>(next_);
-  record.quality_flips = quality_->improve(mesh_, before, record.regions);
+  const QualityCounts done =
+      quality_->improve(mesh_, {.before = before, .replaced = record.regions, .minima = &minima_});
+  record.quality_flips = done.flips;
+  record.quality_moves = done.moves;
   record.quality_ms = clock.milliseconds();
 }
 

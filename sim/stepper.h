@@ -32,6 +32,8 @@ struct StepperOptions {
   bool allow_escaped = false;       // see RepairOptions
   bool retain = false;              // see RepairOptions
   std::string quality = "none";     // a name make_quality knows
+  double angle = 25.0;              // see AngleOptions; of quality "angles", as is
+  VertexFreedom freedom = {};       // by the mesh's numbers
   // Above it, the faces of the step's regions over all faces, both with padding, refuse the step. A limit that
   // is finite takes memory for the whole mesh, as observers do.
   double max_region_share = std::numeric_limits<double>::infinity();
@@ -71,7 +73,8 @@ struct StepOutcome {
 
 class Stepper {
  public:
-  // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy or quality.
+  // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy or quality,
+  // and for what "angles" refuses.
   // time, steps_done: of an earlier stepper whose work this one goes on with. The first takes the mesh's memory
   // where it can.
   explicit Stepper(Mesh&& mesh, const StepperOptions& options = {}, double time = 0.0, int steps_done = 0);
@@ -79,8 +82,8 @@ class Stepper {
                    int steps_done = 0)
       : Stepper(Mesh(mesh), options, time, steps_done) {}
 
-  // To given positions, one per user's vertex in the user's order; with quality "smooth" or strategy "optimize"
-  // vertices may be elsewhere afterwards. Throws InputError for another number of them or a dt that is negative
+  // To given positions, one per user's vertex in the user's order; with quality "smooth" or "angles" or strategy
+  // "optimize" vertices may be elsewhere afterwards. Throws InputError for another number of them or a dt that is negative
   // or not finite; mesh and time are then as they were, as after any other exception.
   [[nodiscard]] StepOutcome step(std::span<const Point> positions, double dt);
 
@@ -140,8 +143,11 @@ class Stepper {
   StepOutcome step_by(std::span<const Point> positions, double end_time, double dt);
   void repair_moved(StepOutcome& outcome);
   std::optional<RegionsTooLarge> excess(const RepairRecord& record) const;
+  void outdate_repaired(const RepairRecord& record);
   void improve(RepairRecord& record);
+  void outdate_improved();
   void tell_observers(const StepRecord& record);
+  std::vector<MovedVertex> moved_by_quality() const;
   void refresh_positions();
   void measure(StepOutcome& outcome);
 

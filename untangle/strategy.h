@@ -53,7 +53,7 @@ struct RepairRecord {
   int replaced = 0;       // faces rewritten
   int escaped = 0;        // vertices now on the wrong side of their border or interface
   int doubled_edges = 0;  // pairs of edges with the same ends that were made while other tangles remained
-  int quality_flips = 0;
+  int quality_flips = 0, quality_moves = 0;
   double detect_ms = 0.0, explore_ms = 0.0, triangulate_ms = 0.0, splice_ms = 0.0, quality_ms = 0.0;
 
   int region_faces() const;      // sum over the regions

@@ -70,7 +70,7 @@ class Contestant {
     const auto outcome = strategy_->repair(
         mesh, {.before = move_.mesh.positions(), .minima = &minima_, .moved = &moved_});
     require_valid(outcome);
-    quality_->improve(mesh, move_.mesh.positions(), outcome.record.regions);
+    quality_->improve(mesh, {.before = move_.mesh.positions(), .replaced = outcome.record.regions});
     const Stopwatch measuring;
     for (const auto& region : outcome.record.regions) minima_.outdate({region.faces.data(), region.faces.size()});
     minima_.outdate(quality_->flipped_faces());

@@ -58,11 +58,10 @@ DelaunayUpkeep::DelaunayUpkeep(const Mesh& mesh)
 }
 
 // The mesh is valid, so flips meet no tangle, which alone could stop them.
-int DelaunayUpkeep::improve(Mesh& mesh, std::span<const Point> before,
-                            std::span<const RegionRecord> replaced) {
-  find_changed_faces(mesh, before, replaced);
+QualityCounts DelaunayUpkeep::improve(Mesh& mesh, const QualityInputs& inputs) {
+  find_changed_faces(mesh, inputs.before, inputs.replaced);
   find_wrong_edges(mesh);
-  return flipping_.run(mesh, wrong_).flips;
+  return {.flips = flipping_.run(mesh, wrong_).flips};
 }
 
 void DelaunayUpkeep::find_changed_faces(const Mesh& mesh, std::span<const Point> before,

@@ -16,7 +16,7 @@ class DelaunayUpkeep : public QualityPass {
  public:
   explicit DelaunayUpkeep(const Mesh& mesh);
 
-  int improve(Mesh& mesh, std::span<const Point> before, std::span<const RegionRecord> replaced) override;
+  QualityCounts improve(Mesh& mesh, const QualityInputs& inputs) override;
   std::span<const int> flipped_faces() const override { return flipping_.flipped_faces(); }
 
  private:

@@ -1,9 +1,9 @@
 #include "untangle/quality/optimal_point.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "core/measure.h"
 
@@ -30,12 +30,16 @@ struct Angle {
   Point gradient;  // radians per length
 };
 
+// Those of up to twelve faces take no memory of their own.
+using Angles = boost::container::small_vector<Angle, 36>;
+using Gradients = boost::container::small_vector<Point, 36>;
+
 // Of the direction of d, with respect to d.
 Point gradient_of_direction(const Point& d) {
   return Point(-d.y, d.x) / dot(d, d);
 }
 
-void append_angles(const LinkEdge& edge, const Point& x, std::vector<Angle>& angles) {
+void append_angles(const LinkEdge& edge, const Point& x, Angles& angles) {
   const auto& [p, q] = edge;
   const Point side = q - p, to_p = x - p, to_q = x - q;
   const Point at_p = gradient_of_direction(to_p), at_q = -gradient_of_direction(to_q);
@@ -53,7 +57,7 @@ Point nearest_to_origin(const Point& a, const Point& b) {
 
 // The shortest vector in the convex hull of the gradients, unless the origin lies inside it: then some point
 // of its border, which at least one gradient opposes.
-Point shortest_in_hull(const std::vector<Point>& gradients) {
+Point shortest_in_hull(const Gradients& gradients) {
   Point best = gradients.front();
   for (std::size_t i = 0; i < gradients.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -126,8 +130,8 @@ class Ascent {
   std::span<const LinkEdge> link_;
   Point x_;
   double smallest_;
-  std::vector<Angle> angles_;
-  std::vector<Point> active_;  // gradients of the angles that are, nearly, the smallest
+  Angles angles_;
+  Gradients active_;  // gradients of the angles that are, nearly, the smallest
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "untangle/quality/angles.h"
 #include "untangle/quality/delaunay_upkeep.h"
 #include "untangle/quality/vertex_sweeps.h"
 
@@ -11,45 +12,56 @@ namespace {
 
 class NoQuality : public QualityPass {
  public:
-  explicit NoQuality(const Mesh&) {}
-  int improve(Mesh&, std::span<const Point>, std::span<const RegionRecord>) override { return 0; }
+  QualityCounts improve(Mesh&, const QualityInputs&) override { return {}; }
 };
 
 class SmoothQuality : public QualityPass {
  public:
   explicit SmoothQuality(const Mesh& mesh) : sweeps_(mesh) {}
   bool moves_vertices() const override { return true; }
-  int improve(Mesh& mesh, std::span<const Point>, std::span<const RegionRecord>) override {
-    sweeps_.run(mesh, {.method = SmoothingMethod::Laplacian, .max_sweeps = 5});
-    return 0;
+  QualityCounts improve(Mesh& mesh, const QualityInputs&) override {
+    return {.moves = sweeps_.run(mesh, {.method = SmoothingMethod::Laplacian, .max_sweeps = 5}).moves};
   }
+  std::span<const MovedVertex> moved_vertices() const override { return sweeps_.moved_vertices(); }
 
  private:
   VertexSweeps sweeps_;
 };
 
-template <class T>
-QualityInfo info(const char* name, const char* description) {
-  return {name, description, [](const Mesh& mesh) { return std::make_unique<T>(mesh); }};
+std::unique_ptr<QualityPass> make_none(const Mesh&, const QualityOptions&) {
+  return std::make_unique<NoQuality>();
+}
+
+std::unique_ptr<QualityPass> make_delaunay(const Mesh& mesh, const QualityOptions&) {
+  return std::make_unique<DelaunayUpkeep>(mesh);
+}
+
+std::unique_ptr<QualityPass> make_smooth(const Mesh& mesh, const QualityOptions&) {
+  return std::make_unique<SmoothQuality>(mesh);
+}
+
+std::unique_ptr<QualityPass> make_angles(const Mesh& mesh, const QualityOptions& options) {
+  return std::make_unique<AngleUpkeep>(mesh, AngleOptions{.angle = options.angle}, options.freedom);
 }
 
 }  // namespace
 
 std::span<const QualityInfo> qualities() {
   static const std::vector<QualityInfo> all{
-      info<NoQuality>("none", "leaves faces as the repair made them"),
-      info<DelaunayUpkeep>("delaunay",
-                           "flips edges until the mesh is the constrained Delaunay triangulation"),
-      info<SmoothQuality>("smooth",
-                          "moves free vertices towards the middle of their neighbours where angles gain"),
+      {"none", "leaves faces as the repair made them", make_none},
+      {"delaunay", "flips edges until the mesh is the constrained Delaunay triangulation", make_delaunay},
+      {"smooth", "moves free vertices towards the middle of their neighbours where angles gain", make_smooth},
+      {"angles", "flips edges and moves vertices at faces with an angle below the wanted one, nowhere else",
+       make_angles},
   };
   return all;
 }
 
-std::unique_ptr<QualityPass> make_quality(std::string_view name, const Mesh& mesh) {
+std::unique_ptr<QualityPass> make_quality(std::string_view name, const Mesh& mesh,
+                                          const QualityOptions& options) {
   std::string known;
   for (const auto& quality : qualities()) {
-    if (quality.name == name) return quality.make(mesh);
+    if (quality.name == name) return quality.make(mesh, options);
     known += (known.empty() ? "" : ", ") + quality.name;
   }
   throw InputError("no quality is named '" + std::string(name) + "'; known are: " + known);

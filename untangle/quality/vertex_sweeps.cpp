@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/measure.h"
 #include "untangle/quality/around.h"
@@ -43,7 +44,8 @@ bool try_place(Mesh& mesh, int vertex, const Point& place, const VertexSweeps::D
 }  // namespace
 
 VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& options) {
-  std::fill(moved_.begin(), moved_.end(), false);
+  std::fill(is_moved_.begin(), is_moved_.end(), false);
+  moved_.clear();
   for (int v = 0; v < mesh.n_vertices(); ++v) restless_[v] = is_movable(mesh, v);
   Counts counts;
   for (int moves = 1; moves > 0 && counts.sweeps < options.max_sweeps; ++counts.sweeps) {
@@ -51,17 +53,19 @@ VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& optio
     for (int v = 0; v < mesh.n_vertices(); ++v) moves += restless_[v] && visit(mesh, v, options);
     counts.moves += moves;
   }
-  counts.moved = static_cast<int>(std::count(moved_.begin(), moved_.end(), true));
+  counts.moved = static_cast<int>(moved_.size());
   return counts;
 }
 
 bool VertexSweeps::visit(Mesh& mesh, int v, const SmoothingOptions& options) {
   restless_[v] = false;
+  const Point before = mesh.position(v);
   const Demand demand{options.least_move * distance_to_nearest_neighbour(mesh, v), worst_tangent(mesh, v)};
   const bool moves = options.method == SmoothingMethod::Laplacian ? move_towards_mean(mesh, v, demand)
                                                                   : move_to_optimum(mesh, v, demand);
   if (!moves) return false;
-  moved_[v] = restless_[v] = true;
+  if (!std::exchange(is_moved_[v], true)) moved_.push_back({v, before});
+  restless_[v] = true;
   for_each_outgoing(mesh, v, [&](int h) { restless_[mesh.to(h)] = is_movable(mesh, mesh.to(h)); });
   return true;
 }

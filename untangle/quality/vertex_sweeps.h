@@ -1,10 +1,12 @@
 // Sweeps over the free vertices of a valid mesh, each of which moves where that makes its faces better.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/mesh.h"
 #include "untangle/quality/optimal_point.h"
+#include "untangle/quality/quality_pass.h"
 #include "untangle/quality/smoothing.h"
 
 namespace kinemesh {
@@ -13,7 +15,9 @@ namespace kinemesh {
 // when it is made: run by the Laplacian method does not allocate, and so cannot fail.
 class VertexSweeps {
  public:
-  explicit VertexSweeps(const Mesh& mesh) : restless_(mesh.n_vertices()), moved_(mesh.n_vertices()) {}
+  explicit VertexSweeps(const Mesh& mesh) : restless_(mesh.n_vertices()), is_moved_(mesh.n_vertices()) {
+    moved_.reserve(mesh.n_vertices());
+  }
 
   struct Counts {
     int sweeps = 0, moves = 0;
@@ -29,13 +33,17 @@ class VertexSweeps {
   // Pre: the mesh is valid and has the number of vertices of the one this was made for.
   Counts run(Mesh& mesh, const SmoothingOptions& options);
 
+  // By the last run, each once, in no order.
+  std::span<const MovedVertex> moved_vertices() const { return moved_; }
+
  private:
   bool visit(Mesh& mesh, int vertex, const SmoothingOptions& options);
   bool move_towards_mean(Mesh& mesh, int vertex, const Demand& demand);
   bool move_to_optimum(Mesh& mesh, int vertex, const Demand& demand);
 
   std::vector<char> restless_;  // per vertex: free, and something around it has changed since it was visited
-  std::vector<char> moved_;     // per vertex
+  std::vector<char> is_moved_;  // per vertex
+  std::vector<MovedVertex> moved_;
   std::vector<LinkEdge> link_;  // around the vertex at hand
 };
 

@@ -1,0 +1,342 @@
+#include "untangle/quality/angles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "core/error.h"
+#include "core/measure.h"
+#include "core/parallel.h"
+#include "untangle/quality/around.h"
+#include "untangle/quality/star.h"
+
+namespace kinemesh {
+namespace {
+
+constexpr int grain = 32;             // places or faces that are worth a task
+constexpr double nearly = 1.15;       // times the wanted angle: of neighbours that may move
+constexpr double least_gain = 1e-4;   // of the angle
+constexpr double rounding = 0x1p-44;  // of tangents up to that of 60 degrees, whichever corner comes first
+
+double tangent_of(double degrees) {
+  return std::tan(degrees * std::numbers::pi / 180.0);
+}
+
+// Tangents of angles: as tan'' > 0 and tan x - x >= x^3 / 3, what is above the right one is the angle and its
+// least gain, at least.
+bool is_better(double after, double before) {
+  return after > before + least_gain * before * (1.0 + before * before);
+}
+
+template <class F>
+void for_all(int n, const F& f) {
+  parallel_parts(n, grain, [&](int, int begin, int end) {
+    for (int i = begin; i != end; ++i) f(i);
+  });
+}
+
+// At most this much is in the list already; taking no memory for each by itself.
+template <class T>
+void make_room(std::vector<T>& list, std::size_t for_more) {
+  if (list.capacity() < list.size() + for_more)
+    list.reserve(std::max(2 * list.capacity(), list.size() + for_more));
+}
+
+const AngleOptions& checked(const AngleOptions& options) {
+  if (!(options.angle > 0.0 && options.angle < 60.0))
+    throw InputError("angle: degrees above 0 and below 60 expected");
+  if (options.max_rounds < 0) throw InputError("max_rounds must be 0 or more");
+  return options;
+}
+
+// Calls visit(face) for those that a flip of the edge rewrites, or a move of the vertex changes.
+template <class Visit>
+void for_each_beside(const Mesh& mesh, int edge, const Visit& visit) {
+  visit(mesh.face_of(2 * edge));
+  visit(mesh.face_of(2 * edge + 1));
+}
+
+template <class Visit>
+void for_each_around(const Mesh& mesh, int vertex, const Visit& visit) {
+  for_each_outgoing(mesh, vertex, [&](int h) {
+    if (mesh.face_of(h) != none) visit(mesh.face_of(h));
+  });
+}
+
+// The smallest angles of the two faces beside an edge, and of those that its flip would make; the latter 0 if one of
+// them would not be upright, exactly.
+struct FlipTangents {
+  double before, after;
+};
+
+FlipTangents tangents_of_flip(const Mesh& mesh, int edge) {
+  const int h = 2 * edge, o = Mesh::opposite(h);
+  const Point &p = mesh.position(mesh.from(h)), &q = mesh.position(mesh.to(h));
+  const Point &left = mesh.position(mesh.to(mesh.next(h))), &right = mesh.position(mesh.to(mesh.next(o)));
+  const auto smaller = [](const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
+    return std::min(tangent_from_any_corner(a), tangent_from_any_corner(b));
+  };
+  FlipTangents tangents{smaller({p, q, left}, {q, p, right}), smaller({left, p, right}, {right, q, left})};
+  const bool is_convex = orientation(left, p, right) == Orientation::CounterClockwise &&
+                         orientation(right, q, left) == Orientation::CounterClockwise;
+  if (!is_convex) tangents.after = 0.0;
+  return tangents;
+}
+
+}  // namespace
+
+AngleUpkeep::AngleUpkeep(const Mesh& mesh, const AngleOptions& options, VertexFreedom freedom)
+    : options_(checked(options)),
+      freedom_(std::move(freedom)),
+      wanted_(tangent_of(options.angle)),
+      nearly_wanted_(tangent_of(nearly * options.angle)),
+      round_(mesh.n_faces(), 0),
+      place_of_(mesh.n_vertices(), none),
+      is_flipped_(mesh.n_faces(), false),
+      is_moved_(mesh.n_vertices(), false) {
+  if (!freedom_.held.empty() && static_cast<int>(freedom_.held.size()) != mesh.n_vertices())
+    throw InputError("held: one per vertex of the mesh expected, or none");
+}
+
+QualityCounts AngleUpkeep::improve(Mesh& mesh, const QualityInputs& inputs) {
+  const AngleCounts counts = run(mesh, inputs.minima);
+  return {counts.flips, counts.moves};
+}
+
+// Memory runs out while thinking only, between what is done, and what is done is noted.
+AngleCounts AngleUpkeep::run(Mesh& mesh, FaceMinima* minima) noexcept {
+  AngleCounts counts;
+  forget();
+  try {
+    if (!minima) own_minima_.reset(mesh.n_faces());
+    find_bad(mesh, minima ? *minima : own_minima_);
+    while (!bad_.empty() && counts.rounds < options_.max_rounds && do_round(mesh, counts)) ++counts.rounds;
+  } catch (const std::bad_alloc&) {
+    counts.is_cut = true;
+  }
+  counts.left = static_cast<int>(bad_.size());
+  return counts;
+}
+
+void AngleUpkeep::forget() {
+  for (const int face : flipped_) is_flipped_[face] = false;
+  for (const auto& moved : moved_) is_moved_[moved.vertex] = false;
+  for (const Place& place : places_) place_of_[place.vertex] = none;
+  bad_.clear();
+  flipped_.clear();
+  moved_.clear();
+  places_.clear();
+  n_found_ = 0;
+}
+
+bool AngleUpkeep::is_bad(const Mesh& mesh, int face) const {
+  return !mesh.is_padding(face) && tangent_from_any_corner(mesh.corners(face)) < wanted_;
+}
+
+void AngleUpkeep::find_bad(const Mesh& mesh, FaceMinima& minima) {
+  if (!(minima.update(mesh).tangent < wanted_ + rounding)) return;
+  for (int begin = 0, n = mesh.n_faces(); begin < n; begin += stretch_faces) {
+    if (!(minima.of_stretch(begin / stretch_faces).tangent < wanted_ + rounding)) continue;
+    for (int face = begin; face < std::min(begin + stretch_faces, n); ++face)
+      if (is_bad(mesh, face)) bad_.push_back(face);
+  }
+}
+
+// False if there was nothing to do.
+bool AngleUpkeep::do_round(Mesh& mesh, AngleCounts& counts) {
+  propose(mesh);
+  propose_around(mesh);
+  std::erase_if(proposals_, [](const auto& proposal) { return proposal.is_none(); });
+  if (proposals_.empty()) return false;
+  choose(mesh);
+  carry_out(mesh, counts);
+  find_still_bad(mesh);
+  return true;
+}
+
+void AngleUpkeep::propose(const Mesh& mesh) {
+  for (const int face : bad_)
+    for (const int v : mesh.triangles()[face]) ask_for_place(mesh, v);
+  find_places(mesh);
+  proposals_.resize(bad_.size());
+  for_all(static_cast<int>(bad_.size()), [&](int i) { proposals_[i] = best_at(mesh, bad_[i]); });
+}
+
+// For those without a proposal.
+void AngleUpkeep::propose_around(const Mesh& mesh) {
+  for (std::size_t i = 0; i < bad_.size(); ++i)
+    if (proposals_[i].is_none()) for_each_vertex_near(mesh, bad_[i], [&](int v) { ask_for_place(mesh, v); });
+  find_places(mesh);
+  for (std::size_t i = 0; i < bad_.size(); ++i)
+    if (proposals_[i].is_none()) proposals_[i] = best_around(mesh, bad_[i]);
+}
+
+// Once for each vertex, until something around it changes.
+void AngleUpkeep::ask_for_place(const Mesh& mesh, int vertex) {
+  if (place_of_[vertex] != none || freedom_of(mesh, vertex) == Freedom::None) return;
+  places_.push_back({.vertex = vertex});
+  place_of_[vertex] = static_cast<int>(places_.size()) - 1;
+}
+
+void AngleUpkeep::find_places(const Mesh& mesh) {
+  const std::span<Place> asked = std::span(places_).subspan(n_found_);
+  for_all(static_cast<int>(asked.size()), [&](int i) { find_place(mesh, asked[i]); });
+  n_found_ = places_.size();
+}
+
+AngleUpkeep::Freedom AngleUpkeep::freedom_of(const Mesh& mesh, int v) const {
+  if (mesh.is_fixed(v) || mesh.user_vertex(v) == none) return Freedom::None;
+  if (!freedom_.held.empty() && freedom_.held[v]) return Freedom::None;
+  if (freedom_.tangents.contains(v)) return Freedom::Line;
+  return is_movable(mesh, v) ? Freedom::Plane : Freedom::None;
+}
+
+void AngleUpkeep::find_place(const Mesh& mesh, Place& place) const {
+  const int v = place.vertex;
+  const Star star(mesh, v);
+  place.before = star.tangent_at(mesh.position(v));
+  const std::optional<Point> where = freedom_of(mesh, v) == Freedom::Plane
+                                         ? star.best_place()
+                                         : star.best_place_along(freedom_.tangents.at(v));
+  if (!where) return;
+  const double after = star.tangent_at(*where);
+  if (!is_better(after, place.before) || !star.is_upright_at(*where)) return;
+  place.where = *where;
+  place.after = after;
+}
+
+bool AngleUpkeep::Proposal::comes_before(const Proposal& other) const {
+  return std::tie(before, users) < std::tie(other.before, other.users);
+}
+
+// It leaves the larger angle.
+bool AngleUpkeep::Proposal::is_preferred_to(const Proposal& other) const {
+  return after > other.after || (after == other.after && users < other.users);
+}
+
+AngleUpkeep::Proposal AngleUpkeep::better(const Proposal& a, const Proposal& b) {
+  return a.is_none() || (!b.is_none() && b.is_preferred_to(a)) ? b : a;
+}
+
+AngleUpkeep::Proposal AngleUpkeep::move_of(const Mesh& mesh, int vertex) const {
+  const int number = place_of_[vertex];
+  if (number == none || places_[number].after == 0.0) return {};
+  const Place& place = places_[number];
+  return {.before = place.before,
+          .after = place.after,
+          .users = {none, mesh.user_vertex(vertex)},
+          .place = number};
+}
+
+AngleUpkeep::Proposal AngleUpkeep::best_at(const Mesh& mesh, int face) const {
+  Proposal best;
+  for (const int v : mesh.triangles()[face]) best = better(best, move_of(mesh, v));
+  for (const int h : mesh.sides(face)) {
+    const int edge = Mesh::edge_of(h);
+    if (!mesh.is_flippable(edge)) continue;
+    const auto [before, after] = tangents_of_flip(mesh, edge);
+    if (!is_better(after, before)) continue;
+    const auto [low, high] = std::minmax({mesh.user_vertex(mesh.from(h)), mesh.user_vertex(mesh.to(h))});
+    best = better(best, {.before = before, .after = after, .users = {low, high}, .edge = edge});
+  }
+  return best;
+}
+
+AngleUpkeep::Proposal AngleUpkeep::best_around(const Mesh& mesh, int face) const {
+  Proposal best;
+  for_each_vertex_near(mesh, face, [&](int v) { best = better(best, move_of(mesh, v)); });
+  return best;
+}
+
+// Corners of neighbours that are nearly bad.
+template <class Visit>
+void AngleUpkeep::for_each_vertex_near(const Mesh& mesh, int face, const Visit& visit) const {
+  for (const int corner : mesh.triangles()[face]) {
+    for_each_around(mesh, corner, [&](int neighbour) {
+      if (mesh.is_padding(neighbour) || tangent_from_any_corner(mesh.corners(neighbour)) >= nearly_wanted_)
+        return;
+      for (const int v : mesh.triangles()[neighbour]) visit(v);
+    });
+  }
+}
+
+void AngleUpkeep::choose(const Mesh& mesh) {
+  std::ranges::sort(proposals_, [](const auto& a, const auto& b) { return a.comes_before(b); });
+  winners_.clear();
+  touched_.clear();
+  ++n_rounds_;
+  for (const Proposal& proposal : proposals_)
+    if (take(mesh, proposal)) winners_.push_back(proposal);
+}
+
+// False if a winner has touched one of its faces.
+bool AngleUpkeep::take(const Mesh& mesh, const Proposal& proposal) {
+  const auto for_each_touched = [&](const auto& visit) {
+    if (proposal.edge != none)
+      for_each_beside(mesh, proposal.edge, visit);
+    else
+      for_each_around(mesh, places_[proposal.place].vertex, visit);
+  };
+  bool is_free = true;
+  for_each_touched([&](int face) { is_free &= round_[face] != n_rounds_; });
+  if (!is_free) return false;
+  for_each_touched([&](int face) {
+    round_[face] = n_rounds_;
+    touched_.push_back(face);
+  });
+  return true;
+}
+
+// They share no face, so that each finds its own as it saw them.
+void AngleUpkeep::carry_out(Mesh& mesh, AngleCounts& counts) {
+  make_room(moved_, winners_.size());
+  make_room(flipped_, 2 * winners_.size());
+  for (const Proposal& winner : winners_) {
+    const bool is_flip = winner.edge != none;
+    ++(is_flip ? counts.flips : counts.moves);
+    if (is_flip)
+      flip(mesh, winner.edge);
+    else
+      move(mesh, places_[winner.place]);
+  }
+}
+
+void AngleUpkeep::move(Mesh& mesh, const Place& place) noexcept {
+  Point& position = mesh.positions()[place.vertex];
+  if (!std::exchange(is_moved_[place.vertex], true)) moved_.push_back({place.vertex, position});
+  position = place.where;
+}
+
+void AngleUpkeep::flip(Mesh& mesh, int edge) noexcept {
+  mesh.flip(edge);
+  for_each_beside(mesh, edge, [&](int face) {
+    if (!std::exchange(is_flipped_[face], true)) flipped_.push_back(face);
+  });
+}
+
+// The corners of the faces touched are all whose faces have changed.
+void AngleUpkeep::find_still_bad(const Mesh& mesh) {
+  for (const int face : touched_)
+    for (const int v : mesh.triangles()[face]) place_of_[v] = none;
+  std::erase_if(bad_, [&](int face) { return round_[face] == n_rounds_; });
+  for (const int face : touched_)
+    if (is_bad(mesh, face)) bad_.push_back(face);
+}
+
+AngleOutcome improve_angles(Mesh& mesh, const AngleOptions& options, const VertexFreedom& freedom) {
+  AngleUpkeep upkeep(mesh, options, freedom);
+  for (int face = 0; face < mesh.n_faces(); ++face)
+    if (!is_upright(mesh, face))
+      throw InputError("face " + std::to_string(mesh.user_face(face)) + " is not upright");
+  AngleOutcome outcome;
+  outcome.min_angle_before_deg = measure(mesh).min_angle_deg;
+  outcome.counts = upkeep.run(mesh);
+  outcome.min_angle_after_deg = measure(mesh).min_angle_deg;
+  return outcome;
+}
+
+}  // namespace kinemesh
