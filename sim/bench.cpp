@@ -33,8 +33,8 @@ std::int64_t bytes_of(const StepRecord& record) {
 
 class Competitor {
  public:
-  Competitor(const RepairSpec& repair, const Mesh& mesh)
-      : options_(stepper_options(repair)), held_bytes_(allocated_bytes()), stepper_(mesh, options_) {
+  Competitor(const RepairSpec& repair, const Mesh& mesh, const Motion& motion)
+      : options_(stepper_options(repair, motion)), held_bytes_(allocated_bytes()), stepper_(mesh, options_) {
     held_bytes_ = allocated_bytes() - held_bytes_;
   }
 
@@ -77,7 +77,7 @@ class Contest {
     for (const auto& strategy : strategies) {
       RepairSpec repair = scenario.repair;
       repair.strategy = strategy;
-      competitors_.emplace_back(repair, mesh_);
+      competitors_.emplace_back(repair, mesh_, motion_);
     }
   }
 

@@ -80,7 +80,7 @@ class Runner {
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
-        stepper_(set_up.mesh, options_of(scenario)),
+        stepper_(set_up.mesh, options_of(scenario, motion_)),
         steps_(scenario.time),
         json_(started(scenario, options, plan)),
         log_(directory_),
@@ -99,7 +99,7 @@ class Runner {
         observer_(observer),
         directory_(plan.directory),
         motion_(std::move(set_up.motion)),
-        stepper_(std::move(resumed.from.mesh), options_of(scenario), resumed.from.checkpoint.time,
+        stepper_(std::move(resumed.from.mesh), options_of(scenario, motion_), resumed.from.checkpoint.time,
                  resumed.from.checkpoint.step),
         steps_(scenario.time, resumed.from.checkpoint.adaptive),
         json_(directory_, scenario, options, files_of_run(directory_)),
@@ -109,6 +109,7 @@ class Runner {
         checkpoint_(std::move(resumed.from.checkpoint)),
         last_checkpoint_(checkpoint_.step) {
     if (scenario.output.patches) patches_.emplace(directory_, resumed.patches_length);
+    stepper_.set_following_state(checkpoint_.following);
     begin(std::move(plan));
     json_.write(summary_, RunState::Running);
   }
@@ -145,8 +146,8 @@ class Runner {
     return json;
   }
 
-  static StepperOptions options_of(const Scenario& scenario) {
-    StepperOptions options = stepper_options(scenario.repair);
+  static StepperOptions options_of(const Scenario& scenario, const Motion& motion) {
+    StepperOptions options = stepper_options(scenario.repair, motion);
     const auto& adaptive = scenario.time.adaptive;
     if (adaptive && adaptive->max_region_share) options.max_region_share = *adaptive->max_region_share;
     return options;
@@ -229,7 +230,7 @@ class Runner {
       step.source = scenario_.file.string();
       step.message = message;
       step.detail = detail;
-      step.options = options_of(scenario_);
+      step.options = options_of(scenario_, motion_);
       step.origin = checkpoint_.origin;
       json_.claim({"failed_step.bin"});
       write_file_atomically(directory_ / "failed_step.bin", format_failed_step(step));

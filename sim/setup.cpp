@@ -80,7 +80,8 @@ void require_record(const AnyField& field, const Mesh& mesh, const Scenario& sce
 std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
   std::vector<MotionTerm> terms;
   for (const MotionSpec& motion : scenario.motions) {
-    MotionTerm& term = terms.emplace_back(MotionTerm{make_field(motion.field, motion.parameters)});
+    MotionTerm& term = terms.emplace_back();
+    term.field = make_field(motion.field, motion.parameters);
     require_record(term.field, mesh, scenario, motion.where_of("file"));
     for (const std::string& part : motion.on) {
       const Restriction restriction = parse_restriction(part, motion.blend);
@@ -183,12 +184,30 @@ void require_still_hull(const Scenario& scenario, const Mesh& mesh, const Border
 
 }  // namespace
 
-StepperOptions stepper_options(const RepairSpec& repair) {
+namespace {
+
+VertexFreedom freedom_of(const Motion& motion) {
+  VertexFreedom freedom;
+  const auto initial = motion.initial_positions();
+  if (!motion.bodies().empty()) freedom.held.assign(initial.size(), false);
+  for (const Body& body : motion.bodies())
+    for (const int v : body.vertices()) freedom.held[v] = true;
+  for (const SlideLine& line : motion.freedom().lines())
+    for (const int v : line.vertices())
+      if (line.is_straight() && motion.freedom().of(v) == BorderCondition::Slide && motion.body_of(v) == none)
+        freedom.tangents.emplace(v, motion.freedom().tangent(v, initial[v]));
+  return freedom;
+}
+
+}  // namespace
+
+StepperOptions stepper_options(const RepairSpec& repair, const Motion& motion) {
   return {.strategy = repair.strategy,
           .allow_escaped = repair.allow_escaped,
           .retain = repair.retain,
           .quality = repair.quality,
-          .angle = repair.angle};
+          .angle = repair.angle,
+          .freedom = freedom_of(motion)};
 }
 
 SetUp set_up(const Scenario& scenario) {
