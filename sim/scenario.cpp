@@ -10,6 +10,7 @@
 #include "motion/restriction.h"
 #include "sim/overrides.h"
 #include "sim/toml_table.h"
+#include "sim/toml_text.h"
 #include "untangle/quality/quality_pass.h"
 #include "untangle/strategy.h"
 
@@ -244,6 +245,7 @@ OutputSpec read_output(TomlTable& table) {
 }
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
+  check_toml(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
