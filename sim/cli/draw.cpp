@@ -118,7 +118,7 @@ RegionRecord repair_again(Mesh& mesh, const ReportedRegions& reported, int numbe
   const auto is_face = [&](int face) { return 0 <= face && face < static_cast<int>(by_user.size()); };
   std::vector<int> seeds;
   const bool is_local = reported.strategy == "local" && std::ranges::all_of(reported.seeds, is_face);
-  const int seed = reported.seeds[number];
+  const bool has_seed = reported.seeds[number] == none || is_face(reported.seeds[number]);
   for (const int seed : reported.seeds)
     if (is_local) seeds.push_back(by_user[seed]);
   const RepairOutcome outcome = is_local ? LocalUntangling().repair_seeds(mesh, seeds, {})
@@ -126,7 +126,7 @@ RegionRecord repair_again(Mesh& mesh, const ReportedRegions& reported, int numbe
   const auto& regions = outcome.record.regions;
   const auto same = [&](const RegionRecord& r) { return std::ranges::equal(r.user_faces, reported.faces[number]); };
   const auto found = std::ranges::find_if(regions, same);
-  if (!outcome || found == regions.end() || (seed != none && !is_face(seed)))
+  if (!outcome || found == regions.end() || !has_seed)
     throw InputError(arguments.region, 0, "is not the report of untangling " + arguments.mesh.path);
   return *found;
 }
