@@ -12,6 +12,7 @@
 #include "motion/recorded.h"
 #include "motion/registry.h"
 #include "motion/restriction.h"
+#include "sim/shared_fields.h"
 #include "sim/toml_table.h"
 
 namespace kinemesh {
@@ -79,9 +80,9 @@ void require_record(const AnyField& field, const Mesh& mesh, const Scenario& sce
 std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
   std::vector<MotionTerm> terms;
   const MarkerNames names(mesh.marker_names().begin(), mesh.marker_names().end());
+  SharedFields fields;
   for (const MotionSpec& motion : scenario.motions) {
-    terms.push_back(
-        {make_field(motion.field, motion.parameters), parse_restriction(motion.on, motion.blend)});
+    terms.push_back({fields.of(motion), parse_restriction(motion.on, motion.blend)});
     require_record(terms.back().field, mesh, scenario, motion.where_of("file"));
     if (const auto* on = std::get_if<OnMarker>(&terms.back().where.on)) {
       if (!names.contains(on->name)) refuse_marker(mesh, on->name, motion.where_of("on"));
