@@ -12,7 +12,7 @@ namespace kinemesh {
 namespace {
 
 // The parser looks them up one by one.
-constexpr std::size_t most_dotted_tables = 256;
+constexpr std::size_t most_dotted_tables = 2048;
 
 // Bytes that the parser, and a scenario made of what it gives, take at most for what a character of structure
 // announces; measured with toml++ 3.3. Tables in lists may be motions.
