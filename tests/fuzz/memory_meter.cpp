@@ -13,7 +13,10 @@
 #endif
 
 #ifdef KINEMESH_ASAN
-#include <sanitizer/allocator_interface.h>
+// Of sanitizer/allocator_interface.h, which g++ does not bring in Debian.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*taken)(const volatile void*, std::size_t),
+                                                         void (*given_back)(const volatile void*));
+extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void* memory);
 #else
 #include <malloc.h>
 
@@ -44,9 +47,8 @@ void start() {
   static const int installed =
       __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t bytes) { taken(bytes); },
                                                 [](const volatile void* memory) {
-                                                  const auto* start = const_cast<const void*>(memory);
-                                                  if (start != nullptr)
-                                                    given_back(__sanitizer_get_allocated_size(start));
+                                                  if (memory != nullptr)
+                                                    given_back(__sanitizer_get_allocated_size(memory));
                                                 });
   static_cast<void>(installed);
 #endif

@@ -88,10 +88,10 @@ std::string text_of(std::string_view text, const Span& span) {
 }
 
 std::string one_more_or_less(const std::string& number, Dice& dice) {
-  long long value = 0;
+  std::int32_t value = 0;
   const auto end = std::from_chars(number.data(), number.data() + number.size(), value).ptr;
   if (end != number.data() + number.size()) return number + "1";
-  const auto by = static_cast<long long>(1 + dice.below(2));
+  const auto by = static_cast<std::int64_t>(1 + dice.below(2));
   return std::to_string(dice.one_in(2) ? value + by : value - by);
 }
 

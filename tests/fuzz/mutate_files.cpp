@@ -76,6 +76,10 @@ int feed(const Subject& subject, std::uint64_t first, std::uint64_t n) {
     std::printf("%s: %s\n", file.c_str(), wrong.c_str());
     ++n_wrong;
   }
+  if (n >= 100 && n_refused == static_cast<int>(n)) {
+    std::printf("%s: no mutant was read\n", subject.name.c_str());
+    ++n_wrong;
+  }
   std::printf("%-14s %llu mutants, %d refused, %d wrong\n", subject.name.c_str(),
               static_cast<unsigned long long>(n), n_refused, n_wrong);
   std::fflush(stdout);

@@ -69,9 +69,10 @@ every = 1
 patches = true
 )";
 
-const char* const other_scenario = R"toml(motion = [{field = "vortices", points = [[0, 0], [1, 1]],
-  strengths = [1, -1], core = 0.1}, {field = "expression", u = "x*y - ((t))", v = '-1', on = "disc:[0, 0, 1]",
-  blend = [0.1, 0.2]}, {field = "grid", file = "grid.csv"}]
+const char* const other_scenario =
+    R"toml(motion = [{field = "vortices", points = [[0, 0], [1, 1]], strengths = [1, -1], core = 0.1},  # two
+  {field = "expression", u = "x*y - ((t))", v = '-1', on = "disc:[0, 0, 1]", blend = [0.1, 0.2]},
+  {field = "grid", file = "grid.csv"}]
 mesh.file = "sample.off"
 mesh.split_quads = true
 border.'far field' = "slide"
@@ -284,7 +285,7 @@ void add_scenarios(std::vector<Subject>& all, const fs::path& folder) {
   for (const auto& [name, sample] : {std::pair("toml", scenario), std::pair("toml_inline", other_scenario)})
     all.push_back(
         text_subject(name, sample, [=](const std::string& text) { return read_scenario(file, text, {}); }));
-  all.push_back(text_subject("set", "motion.0.center = [0.5, {a.b = 'c'}]",
+  all.push_back(text_subject("set", "motion.0.center = [0.25, 0.5]",
                              [=](const std::string& text) { return read_scenario(file, scenario, {text}); }));
 }
 
