@@ -120,7 +120,7 @@ std::vector<Block> take_blocks(ByteStream& stream, std::size_t header_bytes) {
   return blocks;
 }
 
-// Of all blocks together. None of them can hide that it is empty or not there.
+// Of all blocks together. Refuses those that cannot be there, or cannot be as large as they say.
 std::uint64_t inflated_size(const std::vector<Block>& blocks, std::uint64_t most_compressed) {
   std::uint64_t size = 0, compressed = 0;
   for (const Block& block : blocks) {
