@@ -137,14 +137,22 @@ Subject text_subject(const std::string& name, const std::string& sample,
   return {name, [sample](Dice& dice) { return mutated_text(sample, dice); }, std::move(read)};
 }
 
+std::string read_mesh_text(const std::string& text, Format format) {
+  std::string wrong = check_reader(text, format);
+  if (wrong.empty())
+    static_cast<void>(parse_mesh(text, format, "input", {.split_quads = true}));  // or refused
+  return wrong;
+}
+
 Subject mesh_subject(const std::string& name, Format format, const std::string& sample) {
-  return text_subject(name, sample, [format](const std::string& text) { return check_reader(text, format); });
+  return text_subject(name, sample,
+                      [format](const std::string& text) { return read_mesh_text(text, format); });
 }
 
 Subject vtu_subject(const std::string& name, VtuEncoding encoding) {
   const MeshData mesh = sample_mesh();
   return {name, [=](Dice& dice) { return mutated_vtu(mesh, encoding, dice); },
-          [](const std::string& text) { return check_reader(text, Format::Vtu); }};
+          [](const std::string& text) { return read_mesh_text(text, Format::Vtu); }};
 }
 
 std::string read_scenario(const fs::path& file, const std::string& text,
