@@ -66,8 +66,7 @@ class BorderReader {
   BorderReader(const Mesh& mesh, const BorderConditions& conditions) : mesh_(mesh), conditions_(conditions) {
     const std::unordered_set<std::string_view> names(mesh.marker_names().begin(), mesh.marker_names().end());
     for (const auto& [name, condition] : conditions.by_marker)
-      if (!names.contains(name))
-        throw ParameterError(name, "the mesh has no marker \"" + name + "\"");
+      if (!names.contains(name)) throw ParameterError(name, "the mesh has no marker \"" + name + "\"");
   }
 
   void read(std::vector<BorderCondition>& at, std::unordered_map<int, Point>& tangents) const {

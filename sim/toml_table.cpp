@@ -121,8 +121,7 @@ Where where_of(const toml::node& node) {
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
   if (candidates.empty()) return "";
-  if (const std::string* nearest = nearest_to(word, candidates))
-    return ", did you mean '" + *nearest + "'?";
+  if (const std::string* nearest = nearest_to(word, candidates)) return ", did you mean '" + *nearest + "'?";
   return ", expected one of: " + joined(candidates);
 }
 

@@ -124,7 +124,9 @@ RegionRecord repair_again(Mesh& mesh, const ReportedRegions& reported, int numbe
   const RepairOutcome outcome = is_local ? LocalUntangling().repair_seeds(mesh, seeds, {})
                                          : make_strategy(reported.strategy)->repair(mesh, {});
   const auto& regions = outcome.record.regions;
-  const auto same = [&](const RegionRecord& r) { return std::ranges::equal(r.user_faces, reported.faces[number]); };
+  const auto same = [&](const RegionRecord& r) {
+    return std::ranges::equal(r.user_faces, reported.faces[number]);
+  };
   const auto found = std::ranges::find_if(regions, same);
   if (!outcome || found == regions.end() || !has_seed)
     throw InputError(arguments.region, 0, "is not the report of untangling " + arguments.mesh.path);
