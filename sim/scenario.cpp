@@ -9,7 +9,9 @@
 #include "motion/registry.h"
 #include "motion/restriction.h"
 #include "sim/overrides.h"
+#include "sim/shared_fields.h"
 #include "sim/toml_table.h"
+#include "sim/toml_text.h"
 #include "untangle/quality/quality_pass.h"
 #include "untangle/strategy.h"
 
@@ -94,9 +96,9 @@ void read_blend(TomlTable& table, MotionSpec& motion) {
   motion.blend = {(*pair)[0], (*pair)[1]};
 }
 
-void check_motion(const MotionSpec& motion) {
+void check_motion(const MotionSpec& motion, SharedFields& fields) {
   with_lines(motion, [&] {
-    make_field(motion.field, motion.parameters);
+    static_cast<void>(fields.of(motion));
     parse_restriction(motion.on, motion.blend);
   });
 }
@@ -122,7 +124,7 @@ void resolve_files(const std::filesystem::path& folder, MotionSpec& motion) {
   }
 }
 
-MotionSpec read_motion(const toml::table& source, const std::filesystem::path& folder) {
+MotionSpec read_motion(const toml::table& source, const std::filesystem::path& folder, SharedFields& shared) {
   TomlTable table(source, "[[motion]]");
   MotionSpec motion;
   motion.where = table.where();
@@ -136,14 +138,15 @@ MotionSpec read_motion(const toml::table& source, const std::filesystem::path& f
   for (const auto& key : table.keys())
     if (key != "field" && key != "on" && key != "blend") motion.parameters.emplace(key, *table.value(key));
   resolve_files(folder, motion);
-  check_motion(motion);
+  check_motion(motion, shared);
   add_defaults(motion);
   return motion;
 }
 
 std::vector<MotionSpec> read_motions(TomlTable& root, const std::filesystem::path& folder) {
   std::vector<MotionSpec> motions;
-  for (const auto* table : root.tables("motion")) motions.push_back(read_motion(*table, folder));
+  SharedFields shared;
+  for (const auto* table : root.tables("motion")) motions.push_back(read_motion(*table, folder, shared));
   if (motions.empty()) throw error_at(root.where(), "at least one [[motion]] expected");
   return motions;
 }
@@ -244,6 +247,7 @@ OutputSpec read_output(TomlTable& table) {
 }
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
+  check_toml(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {

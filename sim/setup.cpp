@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string_view>
+#include <unordered_set>
 
 #include "core/build.h"
 #include "core/io/mesh_io.h"
@@ -10,6 +12,7 @@
 #include "motion/recorded.h"
 #include "motion/registry.h"
 #include "motion/restriction.h"
+#include "sim/shared_fields.h"
 #include "sim/toml_table.h"
 
 namespace kinemesh {
@@ -51,9 +54,10 @@ Mesh mesh_of(const MeshSpec& spec, const MeshData& data) {
   }
 }
 
-void require_marker(const Mesh& mesh, const std::string& name, const Where& where) {
+using MarkerNames = std::unordered_set<std::string_view>;
+
+[[noreturn]] void refuse_marker(const Mesh& mesh, const std::string& name, const Where& where) {
   const auto& names = mesh.marker_names();
-  if (std::ranges::find(names, name) != names.end()) return;
   throw error_at(where, "no marker '" + name + "' in the mesh" +
                             (names.empty() ? ", which has none" : suggestion(name, names)));
 }
@@ -75,12 +79,13 @@ void require_record(const AnyField& field, const Mesh& mesh, const Scenario& sce
 // them.
 std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
   std::vector<MotionTerm> terms;
+  const MarkerNames names(mesh.marker_names().begin(), mesh.marker_names().end());
+  SharedFields fields;
   for (const MotionSpec& motion : scenario.motions) {
-    terms.push_back(
-        {make_field(motion.field, motion.parameters), parse_restriction(motion.on, motion.blend)});
+    terms.push_back({fields.of(motion), parse_restriction(motion.on, motion.blend)});
     require_record(terms.back().field, mesh, scenario, motion.where_of("file"));
     if (const auto* on = std::get_if<OnMarker>(&terms.back().where.on)) {
-      require_marker(mesh, on->name, motion.where_of("on"));
+      if (!names.contains(on->name)) refuse_marker(mesh, on->name, motion.where_of("on"));
       border.by_marker.emplace(on->name, BorderCondition::Moving);
     }
   }
@@ -88,8 +93,9 @@ std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, Bor
 }
 
 BorderConditions border_of(const Scenario& scenario, const Mesh& mesh) {
+  const MarkerNames names(mesh.marker_names().begin(), mesh.marker_names().end());
   for (const auto& [marker, where] : scenario.border.marker_where)
-    if (marker != "default") require_marker(mesh, marker, where);
+    if (marker != "default" && !names.contains(marker)) refuse_marker(mesh, marker, where);
   return scenario.border.conditions;
 }
 

@@ -37,8 +37,9 @@ class ProgramTest : public ::testing::Test {
 
   pid_t start(const std::vector<std::string>& arguments, int err_file = -1) const;  // -1: kept for wait
 
-  // Any program with its arguments, looked for on the path.
-  pid_t start_words(std::vector<std::string> words, int err_file = -1) const;
+  // As the first process of a pid namespace of its own, with the number 1 there, where the system allows it; the process
+  // that is returned ends as the program does, and the program with it.
+  pid_t start_in_namespace(const std::vector<std::string>& arguments) const;
   Result wait(pid_t process) const;
 
   // Likewise, with a terminal as its stderr, of so many columns (0: unknown). Pre: has_terminals(), as machines with /dev/pts do.
@@ -49,6 +50,8 @@ class ProgramTest : public ::testing::Test {
   void expect_error(const Result& result, int code, std::initializer_list<const char*> words) const;
 
  private:
+  pid_t start(const std::vector<std::string>& arguments, int err_file, bool in_namespace) const;
+
   std::filesystem::path folder_;
   std::filesystem::path capture_;
 };
