@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
+#include "sim/cli/launcher.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -106,7 +107,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return after_flush(answer_to(program, error));
   }
-  return perform(action);
+  return refuse_several(program) ? bad_input : perform(action);
 }
 
 }  // namespace
