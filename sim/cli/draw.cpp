@@ -10,7 +10,9 @@
 #include "core/io/svg.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/file_arguments.h"
+#include "sim/cli/console.h"
 #include "sim/cli/mesh_arguments.h"
+#include "sim/cli/numbers.h"
 #include "sim/draw/png.h"
 #include "sim/draw/region_figure.h"
 #include "sim/draw/step_of_run.h"
@@ -178,7 +180,7 @@ int draw_figure(const DrawArguments& arguments) {
                           : arguments.step != none  ? figure_of_step(arguments)
                                                     : figure_of_mesh(arguments);
   write_file_atomically(arguments.output, is_png(arguments.output) ? draw::png_of(svg) : svg);
-  fmt::print("written: {}\n", arguments.output);
+  print_line("written: " + arguments.output);
   return done;
 }
 
@@ -191,15 +193,17 @@ void add_draw(CLI::App& program, Action& action) {
   command.add_option("-o,--output", arguments->output, "File to write: .svg or .png")->required();
   command.add_option("--region", arguments->region,
                      "Draw a region of this report of `kinemesh untangle` in four pictures");
-  command.add_option("--number", arguments->number, "Which region of the report; default: the largest");
+  command.add_option("--number", arguments->number, "Which region of the report; default: the largest")
+      ->transform(integer());
   command
       .add_option("--step", arguments->step, "MESH is the folder of a run with patches.bin: draw this step")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(integer_within(0, std::numeric_limits<int>::max()).description("NONNEGATIVE"));
   command.add_option("--zoom", arguments->zoom, "What to show: X0,Y0,X1,Y1 in the mesh's units")
       ->delimiter(',')
-      ->expected(4);
+      ->expected(4)
+      ->transform(finite_number());
   command.add_option("--width", arguments->width, "Pixels")
-      ->check(CLI::Range(64.0, 16384.0))
+      ->transform(number_within(64.0, 16384.0))
       ->capture_default_str();
   command.add_option("--title", arguments->title, "Text above a mesh or step");
   command.footer(

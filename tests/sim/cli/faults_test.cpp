@@ -27,22 +27,6 @@ const char* const scenario =
     "[time]\ndt = 0.1\nsteps = 6\n"
     "[output]\nevery = 2\ncheckpoint = 3\npatches = true\n";
 
-// The environment of a program that is started while this lives.
-class Environment {
- public:
-  explicit Environment(std::map<std::string, std::string> variables) : variables_(std::move(variables)) {
-    for (const auto& [name, value] : variables_) setenv(name.c_str(), value.c_str(), 1);
-  }
-  ~Environment() {
-    for (const auto& [name, value] : variables_) unsetenv(name.c_str());
-  }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
- private:
-  std::map<std::string, std::string> variables_;
-};
-
 class Faults : public ProgramTest {
  protected:
   void SetUp() override {
