@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <unordered_set>
 
 #include "core/frame.h"
 #include "core/orient.h"
@@ -51,6 +53,8 @@ class MeshBuilder {
   void constrain_edge(int edge, int marker);
   void constrain_markers();
   int find_edge(int user_a, int user_b) const;
+  int following(int halfedge, int first) const;
+  bool is_in_domain(int halfedge) const;
   int label_beside(int halfedge) const;
 
   const MeshData& data_;
@@ -75,6 +79,11 @@ std::vector<int> order_by(std::span<const int> lowest, int n_vertices) {
 
 bool is_finite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+std::uint64_t key_of(const Edge& edge) {
+  const auto [low, high] = std::minmax(edge[0], edge[1]);
+  return std::uint64_t{static_cast<std::uint32_t>(low)} << 32 | static_cast<std::uint32_t>(high);
 }
 
 std::string name_of(const Edge& edge) {
@@ -347,12 +356,15 @@ void MeshBuilder::constrain_edge(int edge, int marker) {
   mesh_.on_constraint_[mesh_.to(h)] = true;
 }
 
+// An edge that is there again has its constraint already.
 void MeshBuilder::constrain_markers() {
   mesh_.markers_ = data_.markers;
+  std::unordered_set<std::uint64_t> seen;
   for (int m = 0; m < static_cast<int>(data_.markers.size()); ++m) {
     const auto& marker = data_.markers[m];
     mesh_.marker_names_.push_back(marker.name);
     for (const auto& ends : marker.edges) {
+      if (!seen.insert(key_of(ends)).second) continue;
       const int edge = find_edge(ends[0], ends[1]);
       if (edge == none)
         throw InputError("marker " + marker.name + ": " + name_of(ends) + " is not an edge of a face");
@@ -361,20 +373,33 @@ void MeshBuilder::constrain_markers() {
   }
 }
 
+// Turns about both ends at the same time until the first one has come around: summed over the edges of a planar
+// graph this is in proportion to their number, however many meet in a vertex [Chiba 1985].
 int MeshBuilder::find_edge(int user_a, int user_b) const {
   const int n = data_.n_vertices();
   if (user_a < 0 || user_a >= n || user_b < 0 || user_b >= n) return none;
   const int a = mesh_.vertex_of_user_[user_a], b = mesh_.vertex_of_user_[user_b];
-  const int first = mesh_.outgoing(a);
-  int h = first;
-  while (h != none) {
-    const bool in_domain = mesh_.constraint_of(Mesh::edge_of(h)) != none ||
-                           (mesh_.face_of(h) != none && !mesh_.is_padding(mesh_.face_of(h)));
-    if (mesh_.to(h) == b && in_domain) return Mesh::edge_of(h);
-    h = mesh_.next(Mesh::opposite(h));
-    if (h == first) break;
+  const int first_a = mesh_.outgoing(a), first_b = mesh_.outgoing(b);
+  int from_a = first_a, from_b = first_b;
+  while (from_a != none) {
+    if (mesh_.to(from_a) == b && is_in_domain(from_a)) return Mesh::edge_of(from_a);
+    if (from_b != none && mesh_.to(from_b) == a && is_in_domain(from_b)) return Mesh::edge_of(from_b);
+    from_a = following(from_a, first_a);
+    from_b = following(from_b, first_b);
   }
   return none;
+}
+
+// The next one that leaves the same vertex; none after the last.
+int MeshBuilder::following(int halfedge, int first) const {
+  if (halfedge == none) return none;
+  const int next = mesh_.next(Mesh::opposite(halfedge));
+  return next == first ? none : next;
+}
+
+bool MeshBuilder::is_in_domain(int halfedge) const {
+  const int f = mesh_.face_of(halfedge);
+  return mesh_.constraint_of(Mesh::edge_of(halfedge)) != none || (f != none && !mesh_.is_padding(f));
 }
 
 Mesh build_mesh(const MeshData& data, const BuildOptions& options) {

@@ -1,11 +1,8 @@
-// Loops in all threads. For .cpp files: brings TBB.
+// Loops in all threads, or without where none can be made.
 #pragma once
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdint>
 
 #include "core/types.h"
@@ -19,22 +16,23 @@ inline int n_parts(int n, int grain) {
   return std::clamp(n / grain, 1, most_parts);
 }
 
+// Calls do_part(body, part) for each part from 0, each once, in all threads. Where some throw, others may be left out;
+// throws what the first of them in order has thrown. The first call makes the threads that TBB may use, and they stay:
+// TBB itself ends the process where it wants one that cannot be made. Where they cannot, or there is no memory to share
+// the work, the calling thread does it alone.
+void do_parts(int parts, void (*do_part)(const void* body, int part), const void* body);
+
 // Calls body(part, begin, end), begin to end out of 0 to n, for each part in all threads. The parts depend on
 // n and grain only, so that what is gathered by part and put together in their order does not depend on the
-// number of threads. Takes no memory but what TBB takes for itself. What bodies have written can be read afterwards: TBB sees to that; the
-// two counters say it to the thread sanitizer, which does not see into TBB.
+// number of threads. Takes no memory but what TBB takes for itself. What bodies have written can be read afterwards.
 template <class Body>
 void parallel_parts(int n, int grain, const Body& body) {
   const int parts = n_parts(n, grain);
   const auto start = [&](int part) { return static_cast<int>(std::int64_t{n} * part / parts); };
-  std::atomic<int> started{0}, done{0};
-  started.fetch_add(1, std::memory_order_release);
-  tbb::parallel_for(0, parts, [&](int part) {
-    started.load(std::memory_order_acquire);
-    body(part, start(part), start(part + 1));
-    done.fetch_add(1, std::memory_order_release);
-  });
-  done.load(std::memory_order_acquire);
+  const auto one = [&](int part) { body(part, start(part), start(part + 1)); };
+  if (parts == 1) return one(0);
+  do_parts(
+      parts, [](const void* all, int part) { (*static_cast<decltype(&one)>(all))(part); }, &one);
 }
 
 // The lowest i from 0 and below n with is_wanted(i), or none, whatever the number of threads.

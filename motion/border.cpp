@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <unordered_set>
 #include <utility>
 
 namespace kinemesh {
@@ -16,9 +17,9 @@ std::string quoted(const Mesh& mesh, int marker) {
 class BorderReader {
  public:
   BorderReader(const Mesh& mesh, const BorderConditions& conditions) : mesh_(mesh), conditions_(conditions) {
+    const std::unordered_set<std::string_view> names(mesh.marker_names().begin(), mesh.marker_names().end());
     for (const auto& [name, condition] : conditions.by_marker)
-      if (const auto& names = mesh.marker_names(); std::find(names.begin(), names.end(), name) == names.end())
-        throw ParameterError(name, "the mesh has no marker \"" + name + "\"");
+      if (!names.contains(name)) throw ParameterError(name, "the mesh has no marker \"" + name + "\"");
   }
 
   // Conditions of all vertices; the lines of those that slide.

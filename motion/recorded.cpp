@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
+#include <system_error>
 
 #include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
@@ -100,30 +102,44 @@ RecordedPositions::RecordedPositions(const std::filesystem::path& file) : file_(
 void RecordedPositions::read_table(std::string text) {
   std::ranges::replace(text, ',', ' ');
   io::Scanner in(text, file_, '#');
-  TableReader(in, times_, positions_).read();
+  std::vector<std::vector<Point>> positions;
+  TableReader(in, times_, positions).read();
+  for (auto& points : positions)
+    positions_.push_back(std::make_shared<const std::vector<Point>>(std::move(points)));
 }
 
+// A file that is named at several times is read once, whatever the names.
 void RecordedPositions::read_series() {
+  std::map<std::filesystem::path, std::shared_ptr<const std::vector<Point>>> known;
   for (const PvdEntry& entry : read_pvd(file_)) {
     const auto mesh_file = std::filesystem::path(file_).parent_path() / entry.file;
+    std::error_code error;  // of a file that is not there, which reading it tells of
+    auto& points = known[std::filesystem::weakly_canonical(mesh_file, error)];
+    if (!points) points = read_points(mesh_file);
     times_.push_back(entry.time);
-    positions_.push_back(read_mesh(mesh_file).mesh.points);
-    if (positions_.back().size() != positions_.front().size())
-      throw InputError(mesh_file.string(), 0,
-                       fmt::format("{} vertices, expected {} as at the first time of {}",
-                                   positions_.back().size(), positions_.front().size(), file_));
+    positions_.push_back(points);
   }
 }
 
+std::shared_ptr<const std::vector<Point>> RecordedPositions::read_points(
+    const std::filesystem::path& mesh_file) const {
+  auto points = std::make_shared<const std::vector<Point>>(read_mesh(mesh_file).mesh.points);
+  if (!positions_.empty() && points->size() != positions_.front()->size())
+    throw InputError(mesh_file.string(), 0,
+                     fmt::format("{} vertices, expected {} as at the first time of {}", points->size(),
+                                 positions_.front()->size(), file_));
+  return points;
+}
+
 void RecordedPositions::number_vertices() {
-  const auto& first = positions_.front();
+  const auto& first = *positions_.front();
   for (int v = 0; v < static_cast<int>(first.size()); ++v)
     if (const auto [other, is_new] = vertex_at_.emplace(first[v], v); !is_new)
       throw InputError(file_, 0, fmt::format("vertices {} and {} begin at the same place", other->second, v));
 }
 
 void RecordedPositions::require_initial(std::span<const Point> positions) const {
-  const auto& first = positions_.front();
+  const auto& first = *positions_.front();
   if (first.size() != positions.size())
     throw InputError(file_, 0,
                      fmt::format("{} vertices, expected {} as in the mesh", first.size(), positions.size()));
@@ -166,11 +182,11 @@ Point RecordedPositions::displacement(const Point& initial, double t) const {
 
 Point RecordedPositions::position(int vertex, double t) const {
   const auto next = static_cast<std::size_t>(std::ranges::upper_bound(times_, t) - times_.begin());
-  if (next == 0) return positions_.front()[vertex];
-  if (next == times_.size()) return positions_.back()[vertex];
+  if (next == 0) return (*positions_.front())[vertex];
+  if (next == times_.size()) return (*positions_.back())[vertex];
   const double s = (t - times_[next - 1]) / (times_[next] - times_[next - 1]);
-  const Point& before = positions_[next - 1][vertex];
-  return before + s * (positions_[next][vertex] - before);
+  const Point& before = (*positions_[next - 1])[vertex];
+  return before + s * ((*positions_[next])[vertex] - before);
 }
 
 }  // namespace kinemesh

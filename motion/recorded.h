@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -38,13 +39,14 @@ class RecordedPositions final : public DisplacementField {
 
   void read_table(std::string text);
   void read_series();
+  std::shared_ptr<const std::vector<Point>> read_points(const std::filesystem::path& mesh_file) const;
   void number_vertices();
   bool covers(double from, double to) const;
   Point position(int vertex, double t) const;
 
   std::string file_;
   std::vector<double> times_;
-  std::vector<std::vector<Point>> positions_;  // at each time, the user's order
+  std::vector<std::shared_ptr<const std::vector<Point>>> positions_;  // at each time, the user's order
   std::unordered_map<Point, int, Hash> vertex_at_;
 };
 

@@ -111,13 +111,20 @@ class Reader {
   void get(T& value) {
     get_numbers(std::span<T>(&value, 1));
   }
+  void get(bool& value) {
+    std::uint8_t byte = 0;
+    get(byte);
+    if (byte > 1) throw InputError("neither true nor false");
+    value = byte == 1;
+  }
   template <class T>
   void get(std::vector<T>& items) {
-    items.resize(count(Numeric<T> ? sizeof(T) : 1));
+    items.clear();
     if constexpr (Numeric<T>) {
+      items.resize(count(sizeof(T)));
       get_numbers(std::span<T>(items));
     } else {
-      for (T& item : items) get(item);
+      for (auto left = count(1); left > 0; --left) get(items.emplace_back());  // takes no more than there is
     }
   }
   void get(std::string& text) { text = take(count(1)); }

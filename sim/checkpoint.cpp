@@ -1,5 +1,7 @@
 #include "sim/checkpoint.h"
 
+#include <cmath>
+
 #include "core/io/atomic_file.h"
 #include "core/io/file_error.h"
 #include "core/validate.h"
@@ -71,9 +73,18 @@ constexpr const char* current_name = "checkpoint.bin";
 constexpr const char* previous_name = "checkpoint_prev.bin";
 constexpr const char* next_name = "checkpoint_next.bin";
 
+// A run would go on from other numbers for ever.
+void check_progress(const Checkpoint& checkpoint) {
+  const auto& [position, length, in_a_row, rejected] = checkpoint.adaptive;
+  const bool is_good = checkpoint.step >= 0 && std::isfinite(checkpoint.time) && std::isfinite(position) &&
+                       position >= 0.0 && std::isfinite(length) && length > 0.0 && in_a_row >= 0;
+  if (!is_good) throw InputError("a step or a time that no run has");
+}
+
 Restart restart_from(Checkpoint checkpoint, const std::string& scenario) {
   if (const auto differs = scenario_difference(checkpoint.scenario, scenario))
     throw InputError("is of another scenario: " + *differs);
+  check_progress(checkpoint);
   Mesh initial = rebuild(checkpoint.origin), mesh = initial;
   restore(mesh, checkpoint.mesh);
   if (const auto defect = validate(mesh)) throw InputError(defect->message());

@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 
+#include "sim/toml_text.h"
 #include "sim/where.h"
 
 namespace kinemesh {
@@ -11,6 +12,11 @@ namespace {
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw InputError(name, 0, what);
+}
+
+std::string shortened(const std::string& name) {
+  constexpr std::size_t longest = 100;
+  return name.size() > longest ? name.substr(0, longest) + "..." : name;
 }
 
 std::optional<toml::table> try_parse(const std::string& text, const std::string& name) {
@@ -35,6 +41,7 @@ toml::table parse_assignment(const std::string& assignment, const std::string& n
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) fail(name, "key=value expected");
   const std::string key = assignment.substr(0, equals), value = assignment.substr(equals + 1);
+  check_toml(key + " = " + value, shortened(name), 0);
   if (auto typed = try_parse(key + " = " + value, name)) return std::move(*typed);
   if (auto text = try_parse(key + " = " + quoted(value), name)) return std::move(*text);
   fail(name, "'" + key + "' is not a key like mesh.frame or motion.0.rate");

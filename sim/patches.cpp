@@ -1,6 +1,7 @@
 #include "sim/patches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -63,6 +64,10 @@ FacePatch arrays_of(const ChangedPatch& changed) {
 
 bool is_same(const Point& a, const Point& b) {
   return a.x == b.x && a.y == b.y;
+}
+
+bool is_finite(const Point& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
 // A list of the moved ones pays where it is shorter than all positions.
@@ -135,6 +140,7 @@ PatchesReader::PatchesReader(const std::filesystem::path& file)
   if (start_.labels.size() != start_.triangles.size()) fail("is damaged: not one label per face");
   for (const Triangle& t : start_.triangles)
     if (std::ranges::any_of(t, is_wrong)) fail("is damaged: a face with a vertex that is not there");
+  if (!std::ranges::all_of(start_.points, is_finite)) fail("is damaged: a vertex at no finite place");
 }
 
 void PatchesReader::fail(const std::string& what) const {
@@ -178,6 +184,7 @@ void PatchesReader::check(const PatchesStep& step) {
   };
   expect(step.positions.size() ==
          (step.moved.empty() && !step.positions.empty() ? start_.points.size() : step.moved.size()));
+  expect(std::ranges::all_of(step.positions, is_finite));
   expect(std::ranges::all_of(step.moved, [n](int v) { return 0 <= v && v < n; }));
   // Frame corners are none; padding faces are numbered behind the domain's, as many as a planar mesh can have.
   const auto is_face = [n](int f) { return 0 <= f && f < 2 * n + 16; };

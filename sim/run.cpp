@@ -378,11 +378,11 @@ RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver&
   const bool may_be_there = options.force || options.resume;
   FolderLock lock;
   if (!options.dry_run && std::filesystem::is_directory(directory)) lock = FolderLock(directory);
+  if (options.resume) require_run_of(to_toml(scenario), directory);
   check_run_directory(directory, scenario, may_be_there);
   std::optional<Resumption> resumption;
   RunSummary summary;
   if (options.resume) {
-    require_run_of(to_toml(scenario), directory);
     if ((summary.was_finished = holds_finished_run(directory))) return summary;
     resumption = resumption_of(scenario, directory);
   }

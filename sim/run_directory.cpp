@@ -119,6 +119,7 @@ bool holds_finished_run(const fs::path& directory) {
 
 void require_run_of(const std::string& scenario, const fs::path& directory) {
   const fs::path file = directory / "scenario.toml";
+  require_regular_or_nothing(file);
   if (!fs::exists(file)) return;
   if (const auto differs = scenario_difference(read_file(file), scenario))
     fail(file, "the run in this folder is of another scenario: " + *differs);

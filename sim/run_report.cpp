@@ -97,7 +97,7 @@ void RunJson::write(const RunSummary& summary, RunState state) {
   const auto is_missing = [&](const std::string& name) {
     return name != "run.json" && !std::filesystem::exists(path_.parent_path() / name);
   };
-  if (state != RunState::Running) std::erase_if(files_, is_missing);
+  if (state == RunState::Done) std::erase_if(files_, is_missing);
   put();
 }
 

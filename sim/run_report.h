@@ -23,8 +23,8 @@ class RunJson {
   RunJson(const std::filesystem::path& directory, const Scenario& scenario, const RunOptions& options,
           std::set<std::string> files);
 
-  // Throw ResourceError or InputError naming the file. At the end of a run, names of files that are not there are
-  // left out.
+  // Throw ResourceError or InputError naming the file. Once the run is done, names of files that are not there
+  // are left out.
   void write(const RunSummary& summary, RunState state);
   void claim(std::initializer_list<std::string> names);  // before files of these names are made; after a write()
 

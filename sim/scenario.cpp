@@ -10,7 +10,9 @@
 #include "motion/registry.h"
 #include "motion/restriction.h"
 #include "sim/overrides.h"
+#include "sim/shared_fields.h"
 #include "sim/toml_table.h"
+#include "sim/toml_text.h"
 #include "untangle/quality/quality_pass.h"
 #include "untangle/strategy.h"
 
@@ -95,9 +97,9 @@ void read_blend(TomlTable& table, MotionSpec& motion) {
   motion.blend = {(*pair)[0], (*pair)[1]};
 }
 
-void check_motion(const MotionSpec& motion) {
+void check_motion(const MotionSpec& motion, SharedFields& fields) {
   with_lines(motion, [&] {
-    make_field(motion.field, motion.parameters);
+    static_cast<void>(fields.of(motion));
     for (const std::string& part : motion.on) parse_restriction(part, motion.blend);
   });
 }
@@ -138,24 +140,25 @@ void read_field(TomlTable& table, const std::string& name, const std::vector<std
   resolve_files(folder, motion);
 }
 
-MotionSpec read_motion(const toml::table& source, const std::filesystem::path& folder) {
+MotionSpec read_motion(const toml::table& source, const std::filesystem::path& folder, SharedFields& shared) {
   TomlTable table(source, "[[motion]]");
   MotionSpec motion;
   motion.on = table.texts("on").value_or(motion.on);
   read_blend(table, motion);
   read_field(table, "[[motion]]", {"on", "blend"}, folder, motion);
-  check_motion(motion);
+  check_motion(motion, shared);
   add_defaults(motion);
   return motion;
 }
 
 std::vector<MotionSpec> read_motions(TomlTable& root, const std::filesystem::path& folder) {
   std::vector<MotionSpec> motions;
-  for (const auto* table : root.tables("motion")) motions.push_back(read_motion(*table, folder));
+  SharedFields shared;
+  for (const auto* table : root.tables("motion")) motions.push_back(read_motion(*table, folder, shared));
   return motions;
 }
 
-BodyScenario read_body(const toml::table& source, const std::filesystem::path& folder) {
+BodyScenario read_body(const toml::table& source, const std::filesystem::path& folder, SharedFields& shared) {
   TomlTable table(source, "[[body]]");
   BodyScenario body;
   body.where = table.where();
@@ -167,7 +170,7 @@ BodyScenario read_body(const toml::table& source, const std::filesystem::path& f
     TomlTable inner(*motion, "[[body]] motion");
     MotionSpec& spec = body.motions.emplace_back();
     read_field(inner, "[[body]] motion", {}, folder, spec);
-    check_motion(spec);
+    check_motion(spec, shared);
     add_defaults(spec);
   }
   table.refuse_other_keys();
@@ -176,7 +179,8 @@ BodyScenario read_body(const toml::table& source, const std::filesystem::path& f
 
 std::vector<BodyScenario> read_bodies(TomlTable& root, const std::filesystem::path& folder) {
   std::vector<BodyScenario> bodies;
-  for (const auto* table : root.tables("body")) bodies.push_back(read_body(*table, folder));
+  SharedFields shared;
+  for (const auto* table : root.tables("body")) bodies.push_back(read_body(*table, folder, shared));
   return bodies;
 }
 
@@ -315,6 +319,7 @@ OutputSpec read_output(TomlTable& table) {
 }
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
+  check_toml(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {

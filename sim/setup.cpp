@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string_view>
+#include <unordered_set>
 
 #include "core/build.h"
 #include "core/io/mesh_io.h"
@@ -10,6 +12,7 @@
 #include "motion/recorded.h"
 #include "motion/registry.h"
 #include "motion/restriction.h"
+#include "sim/shared_fields.h"
 #include "sim/toml_table.h"
 
 namespace kinemesh {
@@ -51,9 +54,10 @@ Mesh mesh_of(const MeshSpec& spec, const MeshData& data) {
   }
 }
 
-void require_marker(const Mesh& mesh, const std::string& name, const Where& where) {
+using MarkerNames = std::unordered_set<std::string_view>;
+
+[[noreturn]] void refuse_marker(const Mesh& mesh, const std::string& name, const Where& where) {
   const auto& names = mesh.marker_names();
-  if (std::ranges::find(names, name) != names.end()) return;
   throw error_at(where, "no marker '" + name + "' in the mesh" +
                             (names.empty() ? ", which has none" : suggestion(name, names)));
 }
@@ -79,14 +83,16 @@ void require_record(const AnyField& field, const Mesh& mesh, const Scenario& sce
 // them.
 std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
   std::vector<MotionTerm> terms;
+  const MarkerNames names(mesh.marker_names().begin(), mesh.marker_names().end());
+  SharedFields fields;
   for (const MotionSpec& motion : scenario.motions) {
     MotionTerm& term = terms.emplace_back();
-    term.field = make_field(motion.field, motion.parameters);
+    term.field = fields.of(motion);
     require_record(term.field, mesh, scenario, motion.where_of("file"));
     for (const std::string& part : motion.on) {
       const Restriction restriction = parse_restriction(part, motion.blend);
       if (const auto* on = std::get_if<OnMarker>(&restriction.on)) {
-        require_marker(mesh, on->name, motion.where_of("on"));
+        if (!names.contains(on->name)) refuse_marker(mesh, on->name, motion.where_of("on"));
         border.by_marker.emplace(on->name, BorderCondition::Moving);
       }
       if (&part == &motion.on.front())
@@ -101,18 +107,20 @@ std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, Bor
 // Likewise. A marker that [border] holds still cannot be a body's.
 std::vector<BodySpec> bodies_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
   std::vector<BodySpec> bodies;
+  const MarkerNames names(mesh.marker_names().begin(), mesh.marker_names().end());
+  SharedFields fields;
   for (const BodyScenario& body : scenario.bodies) {
     BodySpec& spec = bodies.emplace_back(BodySpec{body.on, {}});
     for (const std::string& part : body.on) {
       if (!part.starts_with("marker:")) continue;
       const std::string marker = part.substr(7);
-      require_marker(mesh, marker, body.where_of("on"));
+      if (!names.contains(marker)) refuse_marker(mesh, marker, body.where_of("on"));
       const auto [condition, is_new] = border.by_marker.emplace(marker, BorderCondition::Moving);
       if (!is_new && condition->second != BorderCondition::Moving)
         throw error_at(scenario.border.marker_where.at(marker),
                        "the marker '" + marker + "' is of a body, which moves it; \"moving\" or nothing expected");
     }
-    for (const MotionSpec& motion : body.motions) spec.motion.push_back(make_field(motion.field, motion.parameters));
+    for (const MotionSpec& motion : body.motions) spec.motion.push_back(fields.of(motion));
   }
   return bodies;
 }
@@ -136,8 +144,9 @@ void require_body_records(const Scenario& scenario, const Motion& motion, const 
 }
 
 BorderConditions border_of(const Scenario& scenario, const Mesh& mesh) {
+  const MarkerNames names(mesh.marker_names().begin(), mesh.marker_names().end());
   for (const auto& [marker, where] : scenario.border.marker_where)
-    if (marker != "default") require_marker(mesh, marker, where);
+    if (marker != "default" && !names.contains(marker)) refuse_marker(mesh, marker, where);
   return scenario.border.conditions;
 }
 

@@ -31,10 +31,32 @@ int edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// The first of them, where they are many.
 std::string joined(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 50;
   std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+  for (std::size_t i = 0; i < std::min(words.size(), most); ++i) text += (i == 0 ? "" : ", ") + words[i];
+  return words.size() > most ? text + ", and " + std::to_string(words.size() - most) + " more" : text;
+}
+
+// How different two words may be to be taken for each other.
+int near(std::string_view word) {
+  return std::max(1, (static_cast<int>(word.size()) + 1) / 3);
+}
+
+// The candidate nearest to a word, none where no one is near. Long ones are not looked at: it takes the
+// product of their lengths.
+const std::string* nearest_to(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest = 100;
+  const std::string* nearest = nullptr;
+  int least = near(word) + 1;
+  for (const std::string& candidate : candidates) {
+    if (std::max(word.size(), candidate.size()) > longest) continue;
+    const int distance = edit_distance(word, candidate);
+    if (distance < least) nearest = &candidate;
+    least = std::min(least, distance);
+  }
+  return nearest;
 }
 
 const char* name_of(toml::node_type type) {
@@ -99,10 +121,7 @@ Where where_of(const toml::node& node) {
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
   if (candidates.empty()) return "";
-  const auto distance = [&](const std::string& candidate) { return edit_distance(word, candidate); };
-  const auto nearest = std::ranges::min_element(candidates, {}, distance);
-  if (distance(*nearest) <= std::max<int>(1, (static_cast<int>(word.size()) + 1) / 3))
-    return ", did you mean '" + *nearest + "'?";
+  if (const std::string* nearest = nearest_to(word, candidates)) return ", did you mean '" + *nearest + "'?";
   return ", expected one of: " + joined(candidates);
 }
 

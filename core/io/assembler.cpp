@@ -81,13 +81,20 @@ int Assembler::marker(std::string_view name, int line) {
   } catch (const InputError& error) {
     fail(line, "marker: " + std::string(error.what()));
   }
-  auto& markers = mesh_.markers;
-  const auto found =
-      std::find_if(markers.begin(), markers.end(), [&](const Marker& m) { return m.name == name; });
-  if (found != markers.end()) return static_cast<int>(found - markers.begin());
-  markers.push_back({std::string(name), {}});
-  marker_line_.emplace_back();
-  return static_cast<int>(markers.size()) - 1;
+  const auto n = static_cast<int>(mesh_.markers.size());
+  const auto [at, is_new] = marker_of_name_.try_emplace(std::string(name), n);
+  if (is_new) {
+    mesh_.markers.push_back({at->first, {}});
+    marker_line_.emplace_back();
+  }
+  return at->second;
+}
+
+void Assembler::reserve_marker(int marker, std::size_t n_more) {
+  auto& edges = mesh_.markers[marker].edges;
+  if (!edges.empty()) return;  // exact sizes, one after the other, would copy all before each time
+  edges.reserve(n_more);
+  marker_line_[marker].reserve(n_more);
 }
 
 void Assembler::add_marker_edge(int marker, const Edge& edge, int line) {
@@ -96,21 +103,21 @@ void Assembler::add_marker_edge(int marker, const Edge& edge, int line) {
 }
 
 void Assembler::check_markers() const {
-  const int n = mesh_.n_vertices();
   for (std::size_t m = 0; m < mesh_.markers.size(); ++m) {
-    const Marker& marker = mesh_.markers[m];
-    for (std::size_t i = 0; i < marker.edges.size(); ++i) {
-      const auto [a, b] = marker.edges[i];
-      const std::string where = "marker " + marker.name + ", edge " + std::to_string(i) + ": ";
-      if (a == b) fail(marker_line_[m][i], where + "vertex " + std::to_string(a) + " is there twice");
-      for (int v : {a, b}) {
-        if (v >= 0 && v < n) continue;
-        fail(marker_line_[m][i], where + "vertex " + std::to_string(v) +
-                                     " does not exist, expected a number from 0 and below " +
-                                     std::to_string(n));
-      }
-    }
+    for (std::size_t i = 0; i < mesh_.markers[m].edges.size(); ++i) check_marker_edge(static_cast<int>(m), i);
   }
+}
+
+void Assembler::check_marker_edge(int marker, std::size_t edge) const {
+  const auto [a, b] = mesh_.markers[marker].edges[edge];
+  const int n = mesh_.n_vertices();
+  const auto exists = [n](int v) { return v >= 0 && v < n; };
+  if (a != b && exists(a) && exists(b)) return;
+  const std::string vertex = "marker " + mesh_.markers[marker].name + ", edge " + std::to_string(edge) +
+                             ": vertex " + std::to_string(exists(a) ? b : a);
+  const int line = marker_line_[marker][edge];
+  if (a == b) fail(line, vertex + " is there twice");
+  fail(line, vertex + " does not exist, expected a number from 0 and below " + std::to_string(n));
 }
 
 // Of the two diagonals the one whose smaller triangle, in the quadrilateral's own sense of rotation, is

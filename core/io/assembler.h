@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/io/mesh_io.h"
@@ -25,6 +26,7 @@ class Assembler {
   void add_face(const std::vector<int>& corners, int line);  // refuses any but 3 or 4 corners
 
   int marker(std::string_view name, int line);  // its number; added where it is new, refused where no name
+  void reserve_marker(int marker, std::size_t n_more);  // for so many more edges
   void add_marker_edge(int marker, const Edge& edge, int line);
 
   // Refuses z other than 0: `number` is that of the vertex, from 0.
@@ -41,6 +43,7 @@ class Assembler {
     std::array<int, 4> corners;
   };
   void check_markers() const;
+  void check_marker_edge(int marker, std::size_t edge) const;
   void choose_diagonals();
   void check_and_wind();
 
@@ -49,6 +52,7 @@ class Assembler {
   MeshData mesh_;
   std::vector<int> face_line_;
   std::vector<Quad> quads_;
+  std::unordered_map<std::string, int> marker_of_name_;
   std::vector<std::vector<int>> marker_line_;  // per marker and edge
   std::vector<std::string> notes_;
 };

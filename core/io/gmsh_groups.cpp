@@ -60,9 +60,9 @@ void GmshGroups::read_entity(int dimension) {
   for (int i = 0; i < n_bounding; ++i) scanner_.integer("number of a bounding entity");
 }
 
-std::vector<int> GmshGroups::of_entity(int dimension, int tag) const {
+std::span<const int> GmshGroups::of_entity(int dimension, int tag) const {
   const auto at = groups_of_entity_.find({dimension, tag});
-  return at == groups_of_entity_.end() ? std::vector<int>{} : at->second;
+  return at == groups_of_entity_.end() ? std::span<const int>{} : at->second;
 }
 
 int GmshGroups::marker_of(int group) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,7 +20,7 @@ class GmshGroups {
   void read_names();     // the content of $PhysicalNames
   void read_entities();  // the content of $Entities, which only version 4 has
 
-  std::vector<int> of_entity(int dimension, int tag) const;  // empty for one that is not known
+  std::span<const int> of_entity(int dimension, int tag) const;  // empty for one that is not known
   int marker_of(int group);                // a curve's; called by its number if it has no name
   int without_direction(int group) const;  // a group's sign only says which way its curve or surface is seen
 

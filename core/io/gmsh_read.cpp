@@ -40,7 +40,7 @@ std::string name_of_type(int type) {
 class GmshReader {
  public:
   GmshReader(std::string_view text, const std::string& file, const ReadOptions& options)
-      : scanner_(text, file), mesh_(file, options) {}
+      : scanner_(text, file), mesh_(file, options), file_size_(text.size()) {}
 
   ReadResult read() {
     while (!scanner_.at_end()) read_section();
@@ -196,7 +196,7 @@ class GmshReader {
     const int tag = scanner_.integer("number of an entity");
     const int type = scanner_.integer("type of elements");
     const int n = scanner_.count("number of elements in a block", 4);
-    const std::vector<int> groups = groups_.of_entity(dimension, tag);
+    const std::span<const int> groups = groups_.of_entity(dimension, tag);
     for (int i = 0; i < n; ++i) {
       scanner_.long_integer("number of an element");
       read_element(type, groups);
@@ -231,6 +231,9 @@ class GmshReader {
     return vertex;
   }
   void add_line(const Edge& edge, std::span<const int> groups) {
+    repeated_ += groups.size() - !groups.empty();
+    if (repeated_ > file_size_)
+      scanner_.fail("lines in several physical groups make more edges of markers than the file has bytes");
     for (int group : groups) {
       if (group == 0) continue;
       const int marker = groups_.marker_of(groups_.without_direction(group));
@@ -248,6 +251,8 @@ class GmshReader {
   GmshGroups groups_{scanner_, mesh_};
   int version_ = 0;
   NodeNumbers nodes_;
+  std::size_t file_size_;
+  std::size_t repeated_ = 0;  // edges of lines that are in another group, too
   bool has_nodes_ = false, has_elements_ = false, has_several_labels_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 
 #include "core/io/assembler.h"
 #include "core/io/codecs.h"
@@ -93,6 +94,7 @@ class PlyReader {
     // A property takes two bytes; without one, an element takes none.
     scanner_.check_count(count, "number of elements", 2);
     scanner_.expect_line_end("an element");
+    element_of_name_.emplace(name, elements_.size());
     elements_.push_back({name, static_cast<int>(count), {}});
   }
 
@@ -148,10 +150,8 @@ class PlyReader {
     }
   }
   const Element* find_element(std::string_view name) const {
-    for (const Element& e : elements_) {
-      if (e.name == name) return &e;
-    }
-    return nullptr;
+    const auto at = element_of_name_.find(std::string(name));
+    return at == element_of_name_.end() ? nullptr : &elements_[at->second];
   }
 
   std::string_view word_here(const char* what) {
@@ -205,6 +205,7 @@ class PlyReader {
   Assembler mesh_;
   bool has_format_ = false;
   std::vector<Element> elements_;
+  std::unordered_map<std::string, std::size_t> element_of_name_;
   std::vector<int> corners_;
 };
 

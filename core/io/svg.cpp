@@ -13,6 +13,7 @@
 #include "core/io/writable.h"
 #include "core/io/xml.h"
 #include "core/predicates.h"
+#include "core/printable.h"
 
 namespace kinemesh {
 namespace {
@@ -26,7 +27,8 @@ constexpr const char* replaced_colour = "#ffcf5c";
 constexpr const char* inverted_colour = "#e02f36";
 constexpr const char* line_colour = "#7d8ea3";
 constexpr const char* constrained_colour = "#1d2733";
-constexpr double band_height = 40.0;  // of the title and legend, in pixels
+constexpr double band_height = 40.0;      // of the title and legend, in pixels
+constexpr std::size_t most_title = 1000;  // characters: more take long to be drawn, and cannot be seen
 
 struct Side {
   Edge ends;  // ascending
@@ -222,13 +224,9 @@ class Drawing {
     if (!has_band()) return;
     svg_ << "<g font-family=\"Helvetica, Arial, sans-serif\" font-size=\"16\" fill=\"" << constrained_colour
          << "\">\n"
-         << "<text x=\"12\" y=\"26\">" << io::xml_text(printable(options_.title)) << "</text>\n<text x=\""
-         << frame_.width() - 12 << "\" y=\"26\" text-anchor=\"end\">" << legend() << "</text>\n</g>\n";
-  }
-  static std::string printable(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; }, ' ');
-    return text;
+         << "<text x=\"12\" y=\"26\">" << io::xml_text(printable(options_.title, most_title))
+         << "</text>\n<text x=\"" << frame_.width() - 12 << "\" y=\"26\" text-anchor=\"end\">" << legend()
+         << "</text>\n</g>\n";
   }
 
   const MeshData& mesh_;

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/io/pieces.h"
 #include "core/io/scanner.h"
@@ -26,6 +28,7 @@ class ByteStream {
   ByteStream(std::string_view encoded, bool is_base64) : encoded_(encoded), is_base64_(is_base64) {}
 
   std::size_t most_left() const { return encoded_.size() + pending_.size(); }
+  std::size_t n_encoded() const { return encoded_.size(); }  // characters not yet read
 
   std::string take(std::size_t n) {
     if (n > most_left()) throw InputError("the data ends early");
@@ -93,8 +96,6 @@ class ByteStream {
 constexpr std::uint64_t largest_expansion = 1032;
 
 void inflate_block(const std::string& compressed, std::uint64_t size, std::string& out) {
-  if (size > largest_expansion * compressed.size())
-    throw InputError("a compressed block cannot be as large as it says");
   const std::size_t before = out.size();
   out.resize(before + size);
   uLongf written = size;
@@ -103,18 +104,47 @@ void inflate_block(const std::string& compressed, std::uint64_t size, std::strin
   if (status != Z_OK || written != size) throw InputError("a compressed block is damaged");
 }
 
-// "number of blocks, size, size of the last if smaller, sizes compressed..., blocks"
-std::string inflate_blocks(ByteStream& stream, std::size_t header_bytes) {
+struct Block {
+  std::uint64_t size, compressed_size;
+};
+
+// "number of blocks, size, size of the last if smaller, sizes compressed..."
+std::vector<Block> take_blocks(ByteStream& stream, std::size_t header_bytes) {
   const std::uint64_t n = stream.take_number(header_bytes);
   if (n > stream.most_left() / header_bytes) throw InputError("the data ends early");
   const std::uint64_t size = stream.take_number(header_bytes);
   const std::uint64_t last_size = stream.take_number(header_bytes);
-  std::vector<std::uint64_t> compressed_sizes;
-  for (std::uint64_t i = 0; i < n; ++i) compressed_sizes.push_back(stream.take_number(header_bytes));
-  std::string out;
-  for (std::uint64_t i = 0; i < n; ++i) {
-    inflate_block(stream.take(compressed_sizes[i]), i + 1 == n && last_size > 0 ? last_size : size, out);
+  std::vector<Block> blocks(n);
+  for (Block& block : blocks) block = {size, stream.take_number(header_bytes)};
+  if (n > 0 && last_size > 0) blocks.back().size = last_size;
+  return blocks;
+}
+
+// Of all blocks together. Refuses those that cannot be there, or cannot be as large as they say.
+std::uint64_t inflated_size(const std::vector<Block>& blocks, std::uint64_t most_compressed) {
+  std::uint64_t size = 0, compressed = 0;
+  for (const Block& block : blocks) {
+    if (block.compressed_size > most_compressed - compressed) throw InputError("the data ends early");
+    if (block.size > largest_expansion * block.compressed_size)
+      throw InputError("a compressed block cannot be as large as it says");
+    size += block.size;
+    compressed += block.compressed_size;
   }
+  return size;
+}
+
+void check_size(std::uint64_t size, std::uint64_t most) {
+  if (size > most)
+    throw InputError(std::to_string(size) + " bytes of data, expected no more than " + std::to_string(most));
+}
+
+std::string inflate_blocks(ByteStream& stream, std::size_t header_bytes, std::uint64_t most) {
+  const std::vector<Block> blocks = take_blocks(stream, header_bytes);
+  const std::uint64_t size = inflated_size(blocks, stream.most_left());
+  check_size(size, most);
+  std::string out;
+  out.reserve(size);
+  for (const Block& block : blocks) inflate_block(stream.take(block.compressed_size), block.size, out);
   return out;
 }
 
@@ -135,18 +165,24 @@ std::vector<Value> convert(const std::string& bytes) {
   return values;
 }
 
-using IntegerConverter = std::vector<long long> (*)(const std::string&);
+struct IntegerType {
+  std::size_t bytes;
+  std::vector<long long> (*convert)(const std::string&);
+};
 
-IntegerConverter integer_converter(std::string_view type) {
-  if (type == "Int8") return convert<std::int8_t, long long>;
-  if (type == "UInt8") return convert<std::uint8_t, long long>;
-  if (type == "Int16") return convert<std::int16_t, long long>;
-  if (type == "UInt16") return convert<std::uint16_t, long long>;
-  if (type == "Int32") return convert<std::int32_t, long long>;
-  if (type == "UInt32") return convert<std::uint32_t, long long>;
-  if (type == "Int64") return convert<std::int64_t, long long>;
-  if (type == "UInt64") return convert<std::uint64_t, long long>;
-  return nullptr;
+template <class Stored>
+constexpr IntegerType integer_type{sizeof(Stored), convert<Stored, long long>};
+
+std::optional<IntegerType> integer_type_of(std::string_view type) {
+  if (type == "Int8") return integer_type<std::int8_t>;
+  if (type == "UInt8") return integer_type<std::uint8_t>;
+  if (type == "Int16") return integer_type<std::int16_t>;
+  if (type == "UInt16") return integer_type<std::uint16_t>;
+  if (type == "Int32") return integer_type<std::int32_t>;
+  if (type == "UInt32") return integer_type<std::uint32_t>;
+  if (type == "Int64") return integer_type<std::int64_t>;
+  if (type == "UInt64") return integer_type<std::uint64_t>;
+  return std::nullopt;
 }
 
 std::string_view attribute(const pugi::xml_node& node, const char* name, const char* standard = "") {
@@ -178,13 +214,26 @@ VtuArrays::VtuArrays(std::string file, std::string_view xml, const pugi::xml_nod
   if (encoding != "raw" && encoding != "base64")
     fail(root.child("AppendedData"), "encoding " + in_quotes(encoding));
   appended_is_base64_ = encoding == "base64";
+  for (std::size_t end = xml_.find('\n'); end != std::string_view::npos; end = xml_.find('\n', end + 1))
+    line_ends_.push_back(end);
+  count_offsets(root.child("UnstructuredGrid"));
+}
+
+void VtuArrays::count_offsets(const pugi::xml_node& grid) {
+  const auto count = [&](const pugi::xml_node& parent) {
+    for (const pugi::xml_node& section : parent.children())
+      for (const pugi::xml_node& array : section.children("DataArray"))
+        if (const auto offset = array.attribute("offset")) ++shared_[offset.as_llong(none)].arrays;
+  };
+  count(grid);
+  count(grid.child("Piece"));
 }
 
 int VtuArrays::line_of(const pugi::xml_node& node) const {
   const auto offset = node.offset_debug();
   if (offset < 0) return 0;
-  const auto end = xml_.begin() + std::min<std::ptrdiff_t>(offset, static_cast<std::ptrdiff_t>(xml_.size()));
-  return 1 + static_cast<int>(std::count(xml_.begin(), end, '\n'));
+  const auto at = std::lower_bound(line_ends_.begin(), line_ends_.end(), static_cast<std::size_t>(offset));
+  return 1 + static_cast<int>(at - line_ends_.begin());
 }
 
 void VtuArrays::fail(const pugi::xml_node& node, const std::string& what) const {
@@ -192,7 +241,7 @@ void VtuArrays::fail(const pugi::xml_node& node, const std::string& what) const 
 }
 
 bool VtuArrays::is_integer(const pugi::xml_node& array) {
-  return integer_converter(attribute(array, "type")) != nullptr;
+  return integer_type_of(attribute(array, "type")).has_value();
 }
 
 template <class Number, class Read>
@@ -205,62 +254,87 @@ std::vector<Number> VtuArrays::ascii(const pugi::xml_node& array, const Read& re
   return numbers;
 }
 
-std::vector<double> VtuArrays::reals(const pugi::xml_node& array) const {
+// The converter turns bytes into values; its mistakes are the array's.
+template <class Converter>
+auto VtuArrays::converted(const pugi::xml_node& array, std::uint64_t most, const Converter& converter) {
+  try {
+    const auto format = attribute(array, "format");
+    std::size_t taken = 0;
+    if (format == "binary") return converter(block(array.child_value(), true, most, taken));
+    if (format == "appended") return converter(appended_bytes(array, most));
+    throw InputError("format " + in_quotes(format) + ", expected ascii, binary or appended");
+  } catch (const InputError& error) {
+    fail(array, name_of(array) + ": " + error.what());
+  }
+}
+
+std::vector<double> VtuArrays::reals(const pugi::xml_node& array, std::uint64_t most) {
   const auto type = attribute(array, "type");
   if (type != "Float32" && type != "Float64") {
     fail(array, name_of(array) + " is of type " + in_quotes(type) + ", expected Float32 or Float64");
   }
-  std::vector<double> values;
   if (attribute(array, "format", "ascii") == "ascii") {
     return ascii<double>(array, [](Scanner& scanner) { return scanner.number("coordinate"); });
   }
-  try {
-    values = type == "Float32" ? convert<float, double>(bytes(array)) : convert<double, double>(bytes(array));
-  } catch (const InputError& error) {
-    fail(array, name_of(array) + ": " + error.what());
-  }
+  const auto values = type == "Float32" ? converted(array, most * sizeof(float), convert<float, double>)
+                                        : converted(array, most * sizeof(double), convert<double, double>);
   const auto bad = std::find_if_not(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
   if (bad != values.end())
     fail(array, name_of(array) + ": value " + std::to_string(bad - values.begin()) + " is not finite");
   return values;
 }
 
-std::vector<long long> VtuArrays::integers(const pugi::xml_node& array) const {
-  const IntegerConverter converter = integer_converter(attribute(array, "type"));
-  if (converter == nullptr) {
+std::vector<long long> VtuArrays::integers(const pugi::xml_node& array, std::uint64_t most) {
+  const auto type = integer_type_of(attribute(array, "type"));
+  if (!type) {
     fail(array,
          name_of(array) + " is of type " + in_quotes(attribute(array, "type")) + ", expected whole numbers");
   }
   if (attribute(array, "format", "ascii") == "ascii") {
     return ascii<long long>(array, [](Scanner& scanner) { return scanner.long_integer("whole number"); });
   }
-  try {
-    return converter(bytes(array));
-  } catch (const InputError& error) {
-    fail(array, name_of(array) + ": " + error.what());
-  }
+  return converted(array, most * type->bytes, type->convert);
 }
 
-std::string VtuArrays::bytes(const pugi::xml_node& array) const {
-  const auto format = attribute(array, "format");
-  if (format == "binary") return block(array.child_value(), true);
-  if (format == "appended") return appended_bytes(array);
-  throw InputError("format " + in_quotes(format) + ", expected ascii, binary or appended");
-}
-
-std::string VtuArrays::appended_bytes(const pugi::xml_node& array) const {
+std::string VtuArrays::appended_bytes(const pugi::xml_node& array, std::uint64_t most) {
   const long long offset = to_integer(attribute(array, "offset"), "an offset into the appended data");
   if (offset < 0 || static_cast<unsigned long long>(offset) > appended_.size()) {
     throw InputError("offset " + std::to_string(offset) + " lies outside the appended data");
   }
-  return block(appended_.substr(static_cast<std::size_t>(offset)), appended_is_base64_);
+  Shared& shared = shared_[offset];
+  if (shared.arrays < 2) return decode_appended(static_cast<std::size_t>(offset), most);
+  if (!std::exchange(shared.is_decoded, true))
+    shared.bytes = decode_appended(static_cast<std::size_t>(offset), most);
+  else
+    repeat(shared.bytes.size());
+  if (is_compressed_) check_size(shared.bytes.size(), most);
+  return shared.bytes;
 }
 
-std::string VtuArrays::block(std::string_view encoded, bool is_base64) const {
+// No byte belongs to two arrays at different offsets: else a short file could hold many long ones.
+std::string VtuArrays::decode_appended(std::size_t offset, std::uint64_t most) {
+  std::size_t taken = 0;
+  std::string bytes = block(appended_.substr(offset), appended_is_base64_, most, taken);
+  appended_taken_ += taken;
+  if (appended_taken_ > appended_.size()) throw InputError("arrays overlap in the appended data");
+  return bytes;
+}
+
+void VtuArrays::repeat(std::size_t n_bytes) {
+  constexpr std::size_t most = 4;  // times the file
+  repeated_ += n_bytes;
+  if (repeated_ / most > xml_.size() + appended_.size())
+    throw InputError("too many arrays share their data, " + std::to_string(most) +
+                     " times the size of the file is the most");
+}
+
+std::string VtuArrays::block(std::string_view encoded, bool is_base64, std::uint64_t most,
+                             std::size_t& taken) const {
   ByteStream stream(encoded, is_base64);
-  if (is_compressed_) return inflate_blocks(stream, header_bytes_);
-  const std::uint64_t size = stream.take_number(header_bytes_);
-  return stream.take(size);
+  std::string bytes = is_compressed_ ? inflate_blocks(stream, header_bytes_, most)
+                                     : stream.take(stream.take_number(header_bytes_));
+  taken = encoded.size() - stream.n_encoded();
+  return bytes;
 }
 
 }  // namespace kinemesh::io

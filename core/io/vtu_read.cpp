@@ -41,9 +41,9 @@ Parts take_apart(std::string_view text, const std::string& file) {
 
 class VtuReader {
  public:
-  VtuReader(const std::string& file, const ReadOptions& options, const VtuArrays& arrays,
-            const pugi::xml_node& root)
-      : arrays_(arrays), root_(root), mesh_(file, options) {}
+  VtuReader(const std::string& file, const ReadOptions& options, VtuArrays& arrays,
+            const pugi::xml_node& root, std::size_t file_size)
+      : arrays_(arrays), root_(root), mesh_(file, options), file_size_(file_size) {}
 
   ReadResult read() {
     const pugi::xml_node grid = require_grid();
@@ -85,6 +85,10 @@ class VtuReader {
       arrays_.fail(piece, error.what());
     }
   }
+  // As many things as a count may stand for.
+  static std::uint64_t most(long long count) {
+    return static_cast<std::uint64_t>(std::clamp<long long>(count, 0, 4LL * max_count));
+  }
   void require_size(const pugi::xml_node& array, std::size_t size, long long expected,
                     const char* what) const {
     if (expected >= 0 && size == static_cast<std::size_t>(expected)) return;
@@ -96,8 +100,8 @@ class VtuReader {
     if (array.attribute("NumberOfComponents").as_string() != std::string_view("3")) {
       arrays_.fail(array, "points need NumberOfComponents=\"3\"");
     }
-    const std::vector<double> x = arrays_.reals(array);
     const long long n = count_of(piece, "NumberOfPoints");
+    const std::vector<double> x = arrays_.reals(array, 3 * most(n));
     if (x.size() % 3 != 0) arrays_.fail(array, "the coordinates are no multiple of 3");
     require_size(array, x.size() / 3, n, "points");
     if (n > max_count) arrays_.fail(array, "too many points");
@@ -109,13 +113,13 @@ class VtuReader {
   void read_cells(const pugi::xml_node& piece) {
     const pugi::xml_node cells = require_child(piece, "Cells");
     connectivity_ = require_array(cells, "connectivity");
-    corners_ = arrays_.integers(connectivity_);
     line_ = arrays_.line_of(connectivity_);
-    const auto offsets = arrays_.integers(require_array(cells, "offsets"));
-    const auto types = arrays_.integers(require_array(cells, "types"));
     const long long n = count_of(piece, "NumberOfCells");
+    const auto offsets = arrays_.integers(require_array(cells, "offsets"), most(n));
+    const auto types = arrays_.integers(require_array(cells, "types"), most(n));
     require_size(cells, offsets.size(), n, "offsets");
     require_size(cells, types.size(), n, "types");
+    corners_ = arrays_.integers(connectivity_, offsets.empty() ? 0 : most(offsets.back()));
     const std::vector<int> labels = read_labels(piece, offsets.size());
     long long begin = 0;
     for (std::size_t i = 0; i < offsets.size(); ++i) {
@@ -166,7 +170,7 @@ class VtuReader {
       return {};
     }
     std::vector<int> labels;
-    for (long long label : arrays_.integers(array)) labels.push_back(narrow(array, label, "label"));
+    for (long long label : arrays_.integers(array, n_cells)) labels.push_back(narrow(array, label, "label"));
     require_size(array, labels.size(), static_cast<long long>(n_cells), "labels");
     return labels;
   }
@@ -175,6 +179,12 @@ class VtuReader {
     arrays_.fail(array, std::string(what) + " " + std::to_string(value) + " is out of range");
   }
 
+  // Where a field does not say how many values it has, they are no more than the file has bytes.
+  std::uint64_t most_values(const pugi::xml_node& array) const {
+    if (!array.attribute("NumberOfTuples")) return file_size_;
+    const std::uint64_t components = most(array.attribute("NumberOfComponents").as_llong(1));
+    return most(count_of(array, "NumberOfTuples")) * components;
+  }
   void read_field(const pugi::xml_node& array) {
     const std::string_view name = array.attribute("Name").as_string();
     if (!is_utf8(name)) arrays_.fail(array, "the name " + in_quotes(name) + " is not UTF-8");
@@ -182,10 +192,11 @@ class VtuReader {
     if (name.starts_with(label_name_prefix)) name_labels(array, name.substr(label_name_prefix.size()));
   }
   void read_marker(const pugi::xml_node& array, std::string_view name) {
-    const std::vector<long long> ends = arrays_.integers(array);
+    const std::vector<long long> ends = arrays_.integers(array, most_values(array));
     if (ends.size() % 2 != 0) arrays_.fail(array, "an odd number of vertices, expected pairs");
     const int line = arrays_.line_of(array);
     const int marker = mesh_.marker(name, line);
+    mesh_.reserve_marker(marker, ends.size() / 2);
     for (std::size_t i = 0; i < ends.size(); i += 2) {
       mesh_.add_marker_edge(marker, {narrow(array, ends[i], "vertex"), narrow(array, ends[i + 1], "vertex")},
                             line);
@@ -197,18 +208,22 @@ class VtuReader {
     } catch (const InputError& error) {
       arrays_.fail(array, error.what());
     }
-    for (long long label : arrays_.integers(array)) {
-      mesh_.mesh().label_names[narrow(array, label, "label")] = name;
-    }
+    const std::vector<long long> labels = arrays_.integers(array, most_values(array));
+    named_ += name.size() * labels.size();
+    if (named_ > file_size_)
+      arrays_.fail(array, "the names of labels are longer than the file, expected one array for each label");
+    for (long long label : labels) mesh_.mesh().label_names[narrow(array, label, "label")] = name;
   }
 
-  const VtuArrays& arrays_;
+  VtuArrays& arrays_;
   pugi::xml_node root_;
   Assembler mesh_;
   pugi::xml_node connectivity_;
   std::vector<long long> corners_;  // of all cells
   int line_ = 0;                    // of connectivity_
   std::size_t n_skipped_ = 0;
+  std::size_t file_size_;
+  std::size_t named_ = 0;  // bytes of the names of labels, one for each label
 };
 
 }  // namespace
@@ -227,8 +242,8 @@ ReadResult read_vtu(std::string_view text, const std::string& file, const ReadOp
   }
   const pugi::xml_node root = document.child("VTKFile");
   if (!root) throw InputError(file, 0, "no element VTKFile");
-  const VtuArrays arrays(file, xml, root, parts.appended);
-  return VtuReader(file, options, arrays, root).read();
+  VtuArrays arrays(file, xml, root, parts.appended);
+  return VtuReader(file, options, arrays, root, text.size()).read();
 }
 
 }  // namespace kinemesh::io

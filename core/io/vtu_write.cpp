@@ -250,11 +250,25 @@ void check_fields(const MeshData& mesh, const VtuFields& fields) {
   }
 }
 
+// XML holds all characters of names but two.
+void check_xml_name(const std::string& name) {
+  for (const char* character : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
+    if (name.find(character) != std::string::npos)
+      throw InputError("the name \"" + name + "\" has a character that XML cannot hold");
+  }
+}
+
+void check_names(const MeshData& mesh) {
+  for (const Marker& marker : mesh.markers) check_xml_name(marker.name);
+  for (const auto& [label, name] : mesh.label_names) check_xml_name(name);
+}
+
 }  // namespace
 
 std::string format_vtu(const MeshData& mesh, const VtuFields& fields) {
   io::check_writable(mesh);
   check_fields(mesh, fields);
+  check_names(mesh);
   return VtuWriter(mesh, fields).write();
 }
 

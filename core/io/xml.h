@@ -4,12 +4,12 @@
 #include <string>
 #include <string_view>
 
+#include "core/utf8.h"
+
 namespace kinemesh::io {
 
 // With & < > and quotes spelt out. What is not UTF-8 is taken for Latin-1, so that the file remains
 // well-formed.
 std::string xml_text(std::string_view text);
-
-bool is_utf8(std::string_view text);
 
 }  // namespace kinemesh::io

@@ -16,6 +16,7 @@
 #include "sim/cli/bench_score.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
+#include "sim/cli/numbers.h"
 #include "sim/csv_log.h"
 #include "sim/setup.h"
 #include "sim/threads.h"
@@ -40,7 +41,7 @@ constexpr int most_bound_samples = 200;  // of a step
 
 // A field that holds a comma or a quote is quoted.
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
@@ -157,15 +158,17 @@ int compare(const BenchArguments& arguments, const Sweep& sweep, std::span<const
           plots.add(round, sweep.values[i]);
         },
         view);
-    fmt::print("\n{}\n", sweep.key.empty() ? scenarios[i].name() : sweep.key + " = " + sweep.values[i]);
+    fmt::print("\n");
+    print_line(sweep.key.empty() ? scenarios[i].name() : sweep.key + " = " + sweep.values[i]);
     print_scores(arguments.strategies, scores);
     if (!stopped) continue;
     std::fflush(stdout);
     print_error(fmt::format("{}: {}", arguments.scenario, *stopped));
     code = not_valid;
   }
-  fmt::print("\npeak memory {:.0f} MiB for all strategies together\n{}\n{}\n", peak_memory(),
-             (directory / "bench.csv").string(), plots.write(directory));
+  fmt::print("\npeak memory {:.0f} MiB for all strategies together\n", peak_memory());
+  print_line((directory / "bench.csv").string());
+  print_line(plots.write(directory));
   return code;
 }
 
@@ -205,7 +208,7 @@ void add_bench(CLI::App& program, Action& action) {
                    "Also explore from single faces; hold the time against Theorem 4.4");
   command.add_flag("--force", arguments->force, "Replace the benchmark that is in the folder");
   command.add_option("--threads", arguments->threads, "Threads to use; default: all cores")
-      ->check(CLI::Range(1, 1024));
+      ->transform(integer_within(1, 1024));
   command.footer(
       "Each strategy is given the same positions at each step, and every mesh is validated outside what is\n"
       "timed. Writes bench.csv, the columns of steps.csv behind the strategy's name, bench_regions.csv, and\n"

@@ -13,6 +13,8 @@
 #include <optional>
 
 #include "core/io/atomic_file.h"
+#include "core/error.h"
+#include "core/printable.h"
 #include "sim/cli/bench_score.h"
 
 namespace kinemesh::cli {
@@ -31,11 +33,14 @@ std::optional<double> number_in(const std::string& text) {
   return value;
 }
 
-// Within double quotes.
+constexpr std::size_t most_text = 200;  // characters of a title or name
+
+// Within single quotes gnuplot reads neither backslashes nor backquotes, which would start a command. Single quotes are
+// joined to the rest: written twice, as its manual says, gnuplot 5.4 takes several of them for the end.
 std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-  return result + "\"";
+  std::string result = "'";
+  for (const char c : printable(text, most_text)) result += c == '\'' ? "'.\"'\".'" : std::string{c};
+  return result + "'";
 }
 
 using Pairs = std::vector<std::pair<double, double>>;
@@ -52,11 +57,27 @@ bool can_be_drawn(const Plot& plot, const std::pair<double, double>& point) {
   return point.second > 0.0 && (!plot.log_x || point.first > 0.0);
 }
 
+// More than can be told apart would only make pictures that nothing can open.
+constexpr std::size_t most_points = 5000, most_curves = 40;
+
+std::size_t stride_for(std::size_t n, std::size_t most) {
+  return std::max<std::size_t>(1, (n + most - 1) / most);
+}
+
 std::string data_block(const Plot& plot, int number, const Pairs& points) {
-  std::string text = fmt::format("$curve{} << end\n", number);
-  for (const auto& point : points)
-    if (can_be_drawn(plot, point)) text += fmt::format("{} {}\n", point.first, point.second);
+  const std::size_t stride = stride_for(points.size(), most_points);
+  std::string text = stride > 1 ? fmt::format("# one of every {} points\n", stride) : "";
+  text += fmt::format("$curve{} << end\n", number);
+  for (std::size_t i = 0; i < points.size(); i += stride)
+    if (can_be_drawn(plot, points[i])) text += fmt::format("{} {}\n", points[i].first, points[i].second);
   return text + "end\n";
+}
+
+Curves some_of(const Curves& curves) {
+  const std::size_t stride = stride_for(curves.size(), most_curves);
+  Curves some;
+  for (std::size_t i = 0; i < curves.size(); i += stride) some.push_back(curves[i]);
+  return some;
 }
 
 std::string line_of(const Plot& plot, int number, const Curve& curve) {
@@ -69,6 +90,7 @@ std::string line_of(const Plot& plot, int number, const Curve& curve) {
 std::string script(const Plot& plot, const Curves& curves) {
   std::string text = fmt::format(
       "# Makes {0}.svg: gnuplot {0}.gp\n"
+      "set encoding utf8\n"
       "set terminal svg size 720,480 noenhanced font \"sans-serif,14\" background \"#ffffff\"\n"
       "set output \"{0}.svg\"\nset title {1}\nset xlabel {2}\nset ylabel {3}\n"
       "set logscale {4}\nset grid lc rgb \"#dddddd\"\nset key outside right top\nset format y \"%g\"\nset "
@@ -84,16 +106,27 @@ std::string script(const Plot& plot, const Curves& curves) {
   return text + "plot " + list + "\n";
 }
 
+// Ours, but for what makes gnuplot do more than its script says.
+std::vector<char*> environment_of_gnuplot() {
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    if (!std::string_view(*variable).starts_with("GNU")) variables.push_back(*variable);
+  variables.push_back(nullptr);
+  return variables;
+}
+
 // False if there is no gnuplot, or it fails.
 bool run_gnuplot(const fs::path& script) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, script.parent_path().c_str());
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  std::string program = "gnuplot", file = script.filename().string();
-  char* const arguments[] = {program.data(), file.data(), nullptr};
+  std::string program = "gnuplot", no_settings = "-d", file = script.filename().string();
+  char* const arguments[] = {program.data(), no_settings.data(), file.data(), nullptr};
+  const auto environment = environment_of_gnuplot();
   pid_t child = 0;
-  const bool spawned = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ) == 0;
+  const bool spawned = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environment.data()) == 0;
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   return spawned && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
@@ -103,10 +136,6 @@ bool is_empty(const Plot& plot, const Curves& curves) {
   return std::ranges::all_of(curves, [&](const auto& curve) {
     return std::ranges::none_of(curve.points, [&](const auto& point) { return can_be_drawn(plot, point); });
   });
-}
-
-void add_once(std::vector<std::string>& all, const std::string& one) {
-  if (std::ranges::find(all, one) == all.end()) all.push_back(one);
 }
 
 // The line of slope 1 through the middle of a cloud.
@@ -119,8 +148,9 @@ std::string slope_one(const Pairs& points) {
 }  // namespace
 
 void BenchPlots::add(const Round& round, const std::string& value) {
-  add_once(strategies_, round.strategy);
-  add_once(values_, value);
+  if (std::ranges::find(strategies_, round.strategy) == strategies_.end())
+    strategies_.push_back(round.strategy);
+  if (seen_.insert(value).second) values_.push_back(value);
   if (!round.record.accepted) return;
   auto& times = times_[{round.strategy, value}];
   times.steps.push_back(round.record.step);
@@ -201,10 +231,14 @@ std::string BenchPlots::write(const fs::path& directory) const {
     write_file_atomically(file, script(plot, curves));
     drawn = run_gnuplot(file) && drawn;
   };
-  if (sweeps_numbers())
+  if (sweeps_numbers()) {
     draw({"sweep", title_, key_, "median step without the move, ms"}, curves_of_sweep());
-  else
-    draw({"steps", title_, "step", "step without the move, ms", false}, curves_of_steps());
+  } else {
+    const Curves all = curves_of_steps(), some = some_of(all);
+    const auto remark =
+        some.size() < all.size() ? fmt::format(": {} of {} curves", some.size(), all.size()) : "";
+    draw({"steps", title_ + remark, "step", "step without the move, ms", false}, some);
+  }
   draw({"sizes", title_, "faces of a region, by powers of two", "regions"}, curves_of_sizes());
   draw({"explored", title_, "faces of R*", "faces explored", true, false, "x title \"all of R*\""},
        curves_of_exploring());

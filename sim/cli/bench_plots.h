@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +23,8 @@ struct Curve {
   std::vector<std::pair<double, double>> points;
 };
 
-// Gathers what is drawn, but for strategies that replace everything (sizes, exploring) and rounds without valid mesh:
+// Gathers what is drawn, but for strategies that replace everything (sizes, exploring) and rounds without valid mesh; of
+// more curves or points than can be told apart one of every so many:
 //   steps     time of each step, without the move; with a sweep over numbers instead
 //   sweep     median time of a step against the swept key
 //   sizes     how many regions have how many faces
@@ -55,6 +57,7 @@ class BenchPlots {
 
   std::string title_, key_;
   std::vector<std::string> strategies_, values_;                        // in the order of appearance
+  std::set<std::string> seen_;                                          // of the values
   std::map<std::pair<std::string, std::string>, Times> times_;          // by strategy and value
   std::map<std::string, std::map<int, int>> regions_;                   // faces, how many
   std::map<std::string, std::map<std::pair<int, int>, int>> explored_;  // faces and explored

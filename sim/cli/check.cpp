@@ -9,6 +9,7 @@
 #include "core/safe_step.h"
 #include "sim/cli/check_report.h"
 #include "sim/cli/commands.h"
+#include "sim/cli/console.h"
 #include "sim/cli/mesh_arguments.h"
 
 namespace kinemesh::cli {
@@ -23,21 +24,21 @@ struct CheckArguments {
 };
 
 void print_culprits(const CheckReport& report) {
-  for (const Defect& defect : report.culprits) fmt::print("  {}\n", defect.message());
+  for (const Defect& defect : report.culprits) print_line("  " + defect.message());
   const auto named = [&](DefectKind kind) {
     return std::count_if(report.culprits.begin(), report.culprits.end(),
                          [&](const Defect& defect) { return defect.kind == kind; });
   };
   const auto unnamed =
       report.inverted - named(DefectKind::InvertedFace) + report.degenerate - named(DefectKind::FlatFace);
-  if (unnamed > 0) fmt::print("  and {} more inverted or flat faces\n", unnamed);
+  if (unnamed > 0) print_line(fmt::format("  and {} more inverted or flat faces", unnamed));
 }
 
 void print_table(const std::string& path, const CheckReport& report) {
   const auto row = [](const char* name, const auto& value, const std::string& remark = "") {
-    fmt::print("  {:<20}{:>12}{}\n", name, value, remark);
+    print_line(fmt::format("  {:<20}{:>12}{}", name, value, remark));
   };
-  fmt::print("{}\n", path);
+  print_line(path);
   row("vertices", report.vertices,
       report.isolated_vertices > 0 ? fmt::format("  ({} in no face)", report.isolated_vertices) : "");
   row("faces", report.faces);
@@ -49,8 +50,8 @@ void print_table(const std::string& path, const CheckReport& report) {
   row("minimum angle", fmt::format("{:.4g}", report.min_angle_deg), " degrees");
   row("minimum area", fmt::format("{:.4g}", report.min_area));
   for (const MarkerCount& marker : report.markers)
-    fmt::print("  marker {}: {} edges\n", marker.name, marker.edges);
-  fmt::print("{}\n", report.valid ? "valid" : "not valid:");
+    print_line(fmt::format("  marker {}: {} edges", marker.name, marker.edges));
+  print_line(report.valid ? "valid" : "not valid:");
   print_culprits(report);
 }
 
@@ -82,10 +83,10 @@ Way way_to(const CheckArguments& arguments, const MeshData& from) {
 // The shortest decimal that reads back as the same number.
 void print_way(const Way& way) {
   if (way.first)
-    fmt::print("safe step toward {}: {} of it, then face {} is flat\n", way.path, way.first->share,
-               way.first->face);
+    print_line(fmt::format("safe step toward {}: {} of it, then face {} is flat", way.path, way.first->share,
+                           way.first->face));
   else
-    fmt::print("safe step toward {}: all of it\n", way.path);
+    print_line(fmt::format("safe step toward {}: all of it", way.path));
 }
 
 Json to_json(const Way& way) {

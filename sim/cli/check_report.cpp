@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "core/build.h"
 #include "core/predicates.h"
@@ -107,13 +108,16 @@ Defect missing_edge(const MeshData& data, const Marker& marker, const Edge& edge
 
 // Returns whether there are any.
 bool name_missing_edges(const MeshData& data, std::vector<Defect>& culprits) {
-  int named = 0;
-  for (const Marker& marker : data.markers) {
-    for (int i : missing_edges(data.triangles, marker.edges)) {
-      if (++named <= culprits_per_kind) culprits.push_back(missing_edge(data, marker, marker.edges[i]));
-    }
+  std::vector<Edge> edges;            // of all markers
+  std::vector<const Marker*> marker;  // of each
+  for (const Marker& m : data.markers) {
+    edges.insert(edges.end(), m.edges.begin(), m.edges.end());
+    marker.resize(edges.size(), &m);
   }
-  return named > 0;
+  const std::vector<int> missing = missing_edges(data.triangles, edges);
+  for (const int i : std::span(missing).first(std::min<std::size_t>(missing.size(), culprits_per_kind)))
+    culprits.push_back(missing_edge(data, *marker[i], edges[i]));
+  return !missing.empty();
 }
 
 // Whether the borders can be embedded at all, and whether the faces then cover what is inside them once.

@@ -1,21 +1,17 @@
 #include "sim/cli/console.h"
 
+#include <fmt/core.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
+#include "core/printable.h"
+
 namespace kinemesh::cli {
 namespace {
-
-std::string on_one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
 
 bool is_set(const char* variable) {
   const char* value = std::getenv(variable);
@@ -30,11 +26,33 @@ void say(const std::string& text) noexcept {
 }
 
 void print_error(const std::string& message) {
-  say("kinemesh: " + on_one_line(message) + "\n");
+  say("kinemesh: " + printable(message.substr(0, message.find_last_not_of('\n') + 1)) + "\n");
 }
 
 void print_note(const std::string& message) {
   print_error("note: " + message);
+}
+
+void print_line(const std::string& line) {
+  fmt::print("{}\n", printable(line));
+}
+
+// What cannot be shown is spelt out, as bash, zsh and others read it within $'...'.
+std::string shell_word(const std::string& text) {
+  const bool is_plain = printable(text) == text;
+  std::string word = is_plain ? "'" : "$'";
+  for (const char c : text) {
+    if (c == '\'')
+      word += is_plain ? "'\\''" : "\\'";
+    else if (is_plain)
+      word += c;
+    else if (c == '\\')
+      word += "\\\\";
+    else
+      word +=
+          c >= ' ' && c < 0x7f ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  }
+  return word + "'";
 }
 
 bool has_live_line() {

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,7 +10,9 @@
 #include "core/io/svg.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/file_arguments.h"
+#include "sim/cli/console.h"
 #include "sim/cli/mesh_arguments.h"
+#include "sim/cli/numbers.h"
 #include "sim/draw/png.h"
 #include "sim/draw/region_figure.h"
 #include "sim/draw/step_of_run.h"
@@ -66,20 +69,40 @@ struct ReportedRegions {
   std::vector<std::vector<int>> faces;  // likewise
 };
 
+// A report is four deep; what is much deeper takes much more memory than it has bytes.
+Json parse_report(const std::string& file) {
+  constexpr int deepest = 256;
+  const auto check_depth = [&](int depth, Json::parse_event_t, const Json&) {
+    if (depth > deepest) throw InputError(file, 0, fmt::format("nested more than {} deep", deepest));
+    return true;
+  };
+  return Json::parse(read_file(file), check_depth, false);
+}
+
+int to_face(const Json& number) {
+  const auto face = number.is_number_integer() ? number.get<std::int64_t>() : -2;
+  if (face < none || face > std::numeric_limits<int>::max())
+    throw InputError("damaged: " + number.dump() + " is no number of a face");
+  return static_cast<int>(face);
+}
+
 ReportedRegions read_regions(const std::string& file) {
-  const Json json = Json::parse(read_file(file), nullptr, false);
+  const Json json = parse_report(file);
   if (!json.is_object() || json.value("schema", Json()) != "kinemesh-untangle-1")
     throw InputError(file, 0, "the report of kinemesh untangle expected");
   try {
     ReportedRegions regions{json.at("strategy"), {}, {}};
     for (const Json& region : json.at("regions")) {
-      regions.seeds.push_back(region.at("seed"));
-      regions.faces.push_back(region.at("faces"));
+      regions.seeds.push_back(to_face(region.at("seed")));
+      auto& faces = regions.faces.emplace_back();
+      for (const Json& face : region.at("faces")) faces.push_back(to_face(face));
     }
-    if (regions.faces.empty()) throw InputError(file, 0, "no region in it: the mesh was not tangled");
+    if (regions.faces.empty()) throw InputError("no region in it: the mesh was not tangled");
     return regions;
   } catch (const Json::exception& error) {
     throw InputError(file, 0, std::string("damaged: ") + error.what());
+  } catch (const InputError& error) {
+    throw InputError(file, 0, error.what());
   }
 }
 
@@ -101,14 +124,17 @@ RegionRecord repair_again(Mesh& mesh, const ReportedRegions& reported, int numbe
   const auto is_face = [&](int face) { return 0 <= face && face < static_cast<int>(by_user.size()); };
   std::vector<int> seeds;
   const bool is_local = reported.strategy == "local" && std::ranges::all_of(reported.seeds, is_face);
+  const bool has_seed = reported.seeds[number] == none || is_face(reported.seeds[number]);
   for (const int seed : reported.seeds)
     if (is_local) seeds.push_back(by_user[seed]);
   const RepairOutcome outcome = is_local ? LocalUntangling().repair_seeds(mesh, seeds, {})
                                          : make_strategy(reported.strategy)->repair(mesh, {});
   const auto& regions = outcome.record.regions;
-  const auto same = [&](const RegionRecord& r) { return std::ranges::equal(r.user_faces, reported.faces[number]); };
+  const auto same = [&](const RegionRecord& r) {
+    return std::ranges::equal(r.user_faces, reported.faces[number]);
+  };
   const auto found = std::ranges::find_if(regions, same);
-  if (!outcome || found == regions.end())
+  if (!outcome || found == regions.end() || !has_seed)
     throw InputError(arguments.region, 0, "is not the report of untangling " + arguments.mesh.path);
   return *found;
 }
@@ -154,7 +180,7 @@ int draw_figure(const DrawArguments& arguments) {
                           : arguments.step != none  ? figure_of_step(arguments)
                                                     : figure_of_mesh(arguments);
   write_file_atomically(arguments.output, is_png(arguments.output) ? draw::png_of(svg) : svg);
-  fmt::print("written: {}\n", arguments.output);
+  print_line("written: " + arguments.output);
   return done;
 }
 
@@ -167,15 +193,17 @@ void add_draw(CLI::App& program, Action& action) {
   command.add_option("-o,--output", arguments->output, "File to write: .svg or .png")->required();
   command.add_option("--region", arguments->region,
                      "Draw a region of this report of `kinemesh untangle` in four pictures");
-  command.add_option("--number", arguments->number, "Which region of the report; default: the largest");
+  command.add_option("--number", arguments->number, "Which region of the report; default: the largest")
+      ->transform(integer());
   command
       .add_option("--step", arguments->step, "MESH is the folder of a run with patches.bin: draw this step")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(integer_within(0, std::numeric_limits<int>::max()).description("NONNEGATIVE"));
   command.add_option("--zoom", arguments->zoom, "What to show: X0,Y0,X1,Y1 in the mesh's units")
       ->delimiter(',')
-      ->expected(4);
+      ->expected(4)
+      ->transform(finite_number());
   command.add_option("--width", arguments->width, "Pixels")
-      ->check(CLI::Range(64.0, 16384.0))
+      ->transform(number_within(64.0, 16384.0))
       ->capture_default_str();
   command.add_option("--title", arguments->title, "Text above a mesh or step");
   command.footer(

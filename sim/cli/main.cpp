@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
+#include "sim/cli/launcher.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -113,6 +114,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return after_flush(answer_to(program, error), failed);
   }
+  if (refuse_several(program)) return bad_input;
   return perform(action, program.got_subcommand("run") ? not_valid : failed);
 }
 

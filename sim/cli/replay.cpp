@@ -68,8 +68,8 @@ int replay_file(const ReplayArguments& arguments) {
   write_meshes(step, arguments);
   const std::string reason = reason_to_stop(step);
   if (reason.empty()) {
-    fmt::print("step {} ends with a valid mesh; version {} had said: {}\n", step.steps_done + 1, step.program,
-               step.message);
+    print_line(fmt::format("step {} ends with a valid mesh; version {} had said: {}", step.steps_done + 1,
+                           step.program, step.message));
     return done;
   }
   print_error(step.source + ": " + reason);

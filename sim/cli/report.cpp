@@ -9,6 +9,7 @@
 #include "sim/cli/console.h"
 #include "sim/cli/file_arguments.h"
 #include "sim/run_directory.h"
+#include "sim/cli/numbers.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -44,8 +45,8 @@ int make_report(const ReportArguments& arguments) {
   const report::Report made = report::make_report(directory, arguments.options);
   for (const std::string& text : made.notes) print_note(text);
   write_file_atomically(output, made.html);
-  fmt::print("written: {}, {:.1f} MB; open it in a browser\n", output.string(),
-             static_cast<double>(made.html.size()) / 1e6);
+  print_line(fmt::format("written: {}, {:.1f} MB; open it in a browser", output.string(),
+                         static_cast<double>(made.html.size()) / 1e6));
   return done;
 }
 
@@ -59,7 +60,7 @@ void add_report(CLI::App& program, Action& action) {
       ->required();
   command.add_option("-o,--output", arguments->output, "File to write; default: DIR/report.html");
   command.add_option("--max-size", arguments->options.max_megabytes, "Megabytes the page may have")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->transform(number_within(0.0, 1000.0))
       ->capture_default_str();
   command.footer(
       "The page plays the mesh with what each step replaced and plots the logs; it needs no network.\n"

@@ -4,11 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <memory>
 
 #include "motion/registry.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
+#include "sim/cli/numbers.h"
 #include "sim/cli/progress.h"
 
 namespace kinemesh::cli {
@@ -30,7 +33,7 @@ struct RunArguments {
 
 template <class Value>
 void print_row(const char* name, const Value& value) {
-  fmt::print("{:<22}{}\n", name, value);
+  print_line(fmt::format("{:<22}{}", name, value));
 }
 
 std::string describe(const MotionSpec& motion) {
@@ -92,6 +95,14 @@ void print_times(const RunSummary& summary, const RemeshProbe& probe) {
               fmt::format("{} ms, {:.3g} times as long", milliseconds(*remesh_ms), *remesh_ms / step_ms));
 }
 
+// Most need no quotes.
+std::string word(const std::string& text) {
+  const auto is_usual = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("/._-+,:@%", c);
+  };
+  return std::ranges::all_of(text, is_usual) ? text : shell_word(text);
+}
+
 // program: as the user has called it, which need not be on the path.
 void print_summary(const RunSummary& summary, const RemeshProbe& probe, const std::string& program) {
   const std::string planned = summary.plan.is_adaptive ? fmt::format("{} rejected", summary.rejected)
@@ -107,15 +118,17 @@ void print_summary(const RunSummary& summary, const RemeshProbe& probe, const st
   if (summary.retries > 0) print_row("retries", summary.retries);
   print_times(summary, probe);
   fmt::print("files\n");
-  for (const auto& file : summary.files) fmt::print("  {}\n", file.string());
-  print_row("to look at it", program + " report " + summary.plan.directory.string());
+  for (const auto& file : summary.files) print_line("  " + file.string());
+  print_row("to look at it",
+            fmt::format("{} report {}", word(program), word(summary.plan.directory.string())));
 }
 
 // The resolved scenario holds what --set and --split-quads changed.
 std::string how_to_go_on(const RunSummary& summary) {
   if (!summary.can_resume) return "";
   const std::string folder = summary.plan.directory.string();
-  return fmt::format("; to go on: kinemesh run '{0}/scenario.toml' -o '{0}' --resume", folder);
+  return fmt::format("; to go on: kinemesh run {} -o {} --resume", shell_word(folder + "/scenario.toml"),
+                     shell_word(folder));
 }
 
 int run_scenario(const RunArguments& arguments) {
@@ -164,7 +177,7 @@ void add_run(CLI::App& program, Action& action, const std::vector<std::string>& 
   CLI::Option* quiet = command.add_flag("-q,--quiet", arguments->quiet, "Say nothing but errors");
   command.add_flag("-v,--verbose", arguments->verbose, "Say more")->excludes(quiet);
   command.add_option("--threads", options.threads, "Threads to use; default: all cores")
-      ->check(CLI::Range(1, 1024));
+      ->transform(integer_within(1, 1024));
   command.footer(
       "Writes scenario.toml, run.json, steps.csv, regions.csv, mesh_NNNNNN.vtu, mesh.pvd, the last mesh\n"
       "and checkpoints. Progress goes to stderr, the summary to stdout. Ctrl-C ends the run after the\n"

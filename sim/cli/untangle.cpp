@@ -13,6 +13,7 @@
 #include "sim/cli/console.h"
 #include "sim/cli/file_arguments.h"
 #include "sim/cli/mesh_arguments.h"
+#include "sim/cli/numbers.h"
 #include "untangle/local.h"
 #include "untangle/stuck.h"
 
@@ -86,7 +87,7 @@ void print_summary(const UntangleArguments& arguments, const Mesh& mesh, const R
              record.regions.size(), record.regions.size() == 1 ? "" : "s");
   if (faces.moved_vertices > 0)
     fmt::print("{} of {} vertices moved\n", faces.moved_vertices, mesh.n_user_vertices());
-  fmt::print("written: {}\n", arguments.output);
+  print_line("written: " + arguments.output);
 }
 
 // hint: what else may be tried.
@@ -163,7 +164,8 @@ void add_untangle(CLI::App& program, Action& action) {
   command
       .add_option("--seed", arguments->seeds,
                   "Untangle only the regions of these inverted faces; for local only")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->transform(integer());
   command.add_flag("--retain", arguments->retain, "Keep upright faces of a region that need not be replaced");
   command.add_option("--report", arguments->report, "File for what was done, as JSON");
   command.footer(

@@ -1,5 +1,6 @@
 #include "sim/draw/png.h"
 
+#include <fmt/core.h>
 #include <librsvg/rsvg.h>
 
 #include <cmath>
@@ -29,6 +30,20 @@ void check(cairo_status_t status) {
     throw InputError(std::string("cannot draw: ") + cairo_status_to_string(status));
 }
 
+void check_bytes(std::size_t n) {
+  if (n <= most_svg_bytes) return;
+  throw InputError(
+      fmt::format("a drawing of {} MB, at most {} become a PNG: a part of it with --zoom, or SVG",
+                  n / 1'000'000, most_svg_bytes / 1'000'000));
+}
+
+void check_pixels(double width, double height) {
+  if (width * height <= most_pixels) return;
+  throw InputError(
+      fmt::format("{:.0f} x {:.0f} pixels, at most {} million become a PNG: a smaller --width, or SVG", width,
+                  height, most_pixels / 1'000'000));
+}
+
 cairo_status_t append(void* png, const unsigned char* bytes, unsigned n) {
   static_cast<std::string*>(png)->append(reinterpret_cast<const char*>(bytes), n);
   return CAIRO_STATUS_SUCCESS;
@@ -37,6 +52,7 @@ cairo_status_t append(void* png, const unsigned char* bytes, unsigned n) {
 }  // namespace
 
 std::string png_of(std::string_view svg) {
+  check_bytes(svg.size());
   GError* error = nullptr;
   // Without the limit that guards against foreign files: these drawings are ours.
   GInputStream* stream =
@@ -48,6 +64,7 @@ std::string png_of(std::string_view svg) {
   double width = 0.0, height = 0.0;
   if (!rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height))
     throw InputError("cannot draw: no size");
+  check_pixels(width, height);
   const Owned<cairo_surface_t> surface(cairo_image_surface_create(
       CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(width)), static_cast<int>(std::ceil(height))));
   check(cairo_surface_status(surface.get()));

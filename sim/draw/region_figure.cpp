@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/io/svg_frame.h"
 #include "core/predicates.h"
 #include "untangle/detect.h"
 #include "untangle/local_exploration.h"
@@ -56,9 +57,7 @@ class Drawing {
   explicit Drawing(const RegionFigure& figure)
       : figure_(figure),
         view_(figure.view ? *figure.view : view_of(figure.before, figure.region)),
-        width_(0.5 * (figure.width - gap)),
-        scale_(width_ / (view_.upper.x - view_.lower.x)),
-        height_(scale_ * (view_.upper.y - view_.lower.y)) {}
+        frame_(view_, 0.5 * (figure.width - gap)) {}
 
   std::string draw() {
     draw_tangle();
@@ -68,7 +67,7 @@ class Drawing {
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}</svg></g>\n</svg>\n",
-        figure_.width, 2.0 * (height_ + gap + title_height), svg_);
+        figure_.width, 2.0 * (frame_.height() + gap + title_height), svg_);
   }
 
  private:
@@ -122,13 +121,14 @@ class Drawing {
   }
 
   void start_picture(const std::string& title) {
-    const double x = n_pictures_ % 2 * (width_ + gap), y = n_pictures_ / 2 * (height_ + gap + title_height);
+    const double x = n_pictures_ % 2 * (frame_.width() + gap);
+    const double y = n_pictures_ / 2 * (frame_.height() + gap + title_height);
     if (n_pictures_++ > 0) svg_ += "</svg></g>\n";
     svg_ += fmt::format(
         "<g transform=\"translate({:.2f},{:.2f})\"><text y=\"16\" font-family=\"sans-serif\" "
         "font-size=\"15\">{}</text>\n<svg y=\"{}\" width=\"{:.2f}\" height=\"{:.2f}\">"
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-        x, y, title, title_height, width_, height_);
+        x, y, title, title_height, frame_.width(), frame_.height());
   }
 
   void fill(const Mesh& mesh, int face, const char* colour, double opacity) {
@@ -158,15 +158,15 @@ class Drawing {
     if (polygon.empty() || !is_visible(polygon)) return;
     svg_ += "<path d=\"";
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      svg_ += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L", scale_ * (polygon[i].x - view_.lower.x),
-                          scale_ * (view_.upper.y - polygon[i].y));
+      const Point pixel = frame_.pixel(polygon[i]);
+      svg_ += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L", pixel.x, pixel.y);
     }
     svg_ += "Z\" " + style + "/>\n";
   }
 
   const RegionFigure& figure_;
   ViewBox view_;
-  double width_, scale_, height_;  // of a picture, in pixels
+  io::SvgFrame frame_;  // of a picture
   int n_pictures_ = 0;
   std::string svg_;
 };

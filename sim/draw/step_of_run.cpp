@@ -1,5 +1,7 @@
 #include "sim/draw/step_of_run.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "sim/patches.h"
 
@@ -10,7 +12,14 @@ namespace {
 struct Faces {
   std::vector<Triangle> corners;
   std::vector<int> labels;
-  std::vector<std::uint8_t> replaced;
+  std::vector<std::uint8_t> replaced = {};  // by the last step
+  std::vector<int> last = {};               // those it has replaced
+
+  void apply(const PatchesStep& step) {
+    for (const int face : last) replaced[face] = 0;
+    last.clear();
+    for (const FacePatch& patch : step.patches) apply(patch);
+  }
 
   void apply(const FacePatch& patch) {
     for (std::size_t i = 0; i < patch.faces.size(); ++i) {
@@ -23,15 +32,14 @@ struct Faces {
       corners[face] = patch.after[i];
       labels[face] = patch.label_after[i];
       replaced[face] = 1;
+      last.push_back(patch.faces[i]);
     }
   }
 };
 
-void apply(const PatchesStep& step, std::vector<Point>& points, Faces& faces) {
+void move(const PatchesStep& step, std::vector<Point>& points) {
   if (step.moved.empty() && !step.positions.empty()) points = step.positions;
   for (std::size_t i = 0; i < step.moved.size(); ++i) points[step.moved[i]] = step.positions[i];
-  faces.replaced.assign(faces.corners.size(), 0);
-  for (const FacePatch& patch : step.patches) faces.apply(patch);
 }
 
 }  // namespace
@@ -43,19 +51,20 @@ StepOfRun step_of_run(const std::filesystem::path& directory, int step) {
   PatchesReader reader(file);
   StepOfRun found;
   found.mesh.points = reader.start().points;
-  Faces faces{reader.start().triangles, reader.start().labels,
-              std::vector<std::uint8_t>(reader.start().triangles.size(), 0)};
+  Faces faces{reader.start().triangles, reader.start().labels};
+  faces.replaced.resize(faces.corners.size(), 0);
   for (int last = 0; last < step;) {
     const auto next = reader.next();
     if (!next || next->step > step)
       throw InputError(file.string(), 0,
                        "no step " + std::to_string(step) + ", the last before it is " + std::to_string(last));
-    apply(*next, found.mesh.points, faces);
+    move(*next, found.mesh.points);
+    faces.apply(*next);
     last = next->step;
     found.time = next->time;
   }
   for (std::size_t f = 0; f < faces.corners.size(); ++f) {
-    if (faces.labels[f] == padding_label) continue;
+    if (faces.labels[f] == padding_label || std::ranges::count(faces.corners[f], none) > 0) continue;
     found.mesh.triangles.push_back(faces.corners[f]);
     found.mesh.labels.push_back(faces.labels[f]);
     found.replaced.push_back(faces.replaced[f]);

@@ -8,6 +8,7 @@
 
 #include "core/io/atomic_file.h"
 #include "sim/csv_log.h"
+#include "sim/report/bench_rows.h"
 #include "sim/report/frame_encoder.h"
 #include "sim/report/page.h"
 #include "sim/report/table.h"
@@ -175,9 +176,10 @@ class Maker {
     auto required = needed;
     required.push_back("strategy");
     const auto usual = names_in(steps_csv_header);
-    const Table rows = read_table(directory_ / "bench.csv", required, [&](const std::string& name) {
+    const Table all = read_table(directory_ / "bench.csv", required, [&](const std::string& name) {
       return std::ranges::find(usual, name) == usual.end();
     });
+    const Table rows = thin_bench(all, notes_);
     Json bench;
     bench["rows"] = columns(rows, needed);
     bench["strategies"] = distinct(rows.texts.at("strategy"));
@@ -191,13 +193,6 @@ class Maker {
     if (rows.size > 0 && data_["facts"] == "")
       data_["facts"] = fmt::format("{} strategies; {}", bench["strategies"].size(), size_of(rows));
     data_["bench"] = rows.size > 0 ? bench : Json();
-  }
-
-  static std::vector<std::string> distinct(const std::vector<std::string>& values) {
-    std::vector<std::string> found;
-    for (const std::string& value : values)
-      if (std::ranges::find(found, value) == found.end()) found.push_back(value);
-    return found;
   }
 
   static std::optional<std::vector<double>> all_numbers(const std::vector<std::string>& values) {

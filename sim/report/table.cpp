@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -10,6 +11,9 @@
 
 namespace kinemesh::report {
 namespace {
+
+// More than any log has; what a record takes is bounded with it.
+constexpr std::size_t most_columns = 4096;
 
 // The records of a CSV file [Shafranovich 2005]: fields in quotes may hold commas, line ends, and quotes written twice.
 class Records {
@@ -32,6 +36,8 @@ class Records {
       } else if (c == '\n') {
         return true;
       } else if (c == ',') {
+        if (fields.size() == most_columns)
+          fail("more than " + std::to_string(most_columns) + " columns, the most a table may have");
         fields.emplace_back();
       } else if (c != '\r') {
         fields.back() += c;
@@ -68,6 +74,9 @@ Table read_table(const std::filesystem::path& file, const std::vector<std::strin
   Records records(content, file);
   Table table;
   records.read(table.names);
+  if (const std::set<std::string> names(table.names.begin(), table.names.end());
+      names.size() < table.names.size())
+    records.fail("two columns of one name");
   for (const std::string& name : required)
     if (std::ranges::find(table.names, name) == table.names.end())
       records.fail("a column " + name + " expected");

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
@@ -213,6 +214,28 @@ TEST(Measure, IsThatOfEachFaceInTurn) {
     EXPECT_NEAR(measures.min_area, min_area, 1e-15);
     EXPECT_NEAR(measures.min_angle_deg, std::atan(min_tangent) * 180.0 / std::numbers::pi, 1e-10);
   }
+}
+
+// A hub whose spokes are all marked, many times, and two hubs that share an edge that is marked many times.
+TEST(Build, FindsTheMarkedEdgesOfAHubQuickly) {
+  constexpr int n = 50'000;
+  MeshData data;
+  data.points = {{0.0, 0.0}, {0.0, -1.0}};
+  for (int i = 0; i < n; ++i) {
+    const double t = 2.0 * i / (n - 1) - 1.0;
+    data.points.push_back({t, 2.0 - t * t});
+    if (i > 0) data.triangles.push_back({0, i + 2, i + 1});
+    data.markers.push_back({"spoke", {{0, i + 2}, {i + 2, 0}, {0, n / 2}}});
+  }
+  data.triangles.push_back({0, 2, 1});
+  data.triangles.push_back({0, 1, n + 1});
+  const auto before = std::chrono::steady_clock::now();
+  const Mesh mesh = build_mesh(data);
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(10));
+  EXPECT_FALSE(validate(mesh));
+  int n_marked = 0;
+  for (const Constraint& c : mesh.constraints()) n_marked += c.marker != none;
+  EXPECT_EQ(n_marked, n);
 }
 
 TEST(Measure, IsZeroDegreesForFlatAndInvertedFaces) {

@@ -88,7 +88,7 @@ TEST(Svg, FacesOutsideTheViewAreLeftOut) {
 TEST(Svg, TitlesAreText) {
   const std::string svg = format_svg(fan({0.5, 0.5}), {.title = "a < b & \"c\"\n\x01"});
   EXPECT_EQ(std::string(parsed(svg).child("svg").child("g").next_sibling("g").child("text").text().get()),
-            "a < b & \"c\"  ");
+            "a < b & \"c\"\\n\\x01");
 }
 
 TEST(Svg, ExtremeCoordinatesStayOnThePage) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 
@@ -148,6 +149,21 @@ TEST_F(RecordedPositionsTest, NameTheLineOrMeshOfASeriesThatIsWrong) {
   EXPECT_THAT(
       error_in_series("<VTKFile><Collection><DataSet timestep='0' file='none.vtu'/></Collection></VTKFile>"),
       HasSubstr("none.vtu"));
+}
+
+TEST_F(RecordedPositionsTest, ReadAFileThatIsNamedOftenOnce) {
+  constexpr int n = 50'000;
+  const auto folder = RecordedPositionsTest::folder();
+  write_vtu(folder / "a.vtu", test::grid(40));
+  std::vector<PvdEntry> entries;
+  for (int i = 0; i < n; ++i)
+    entries.push_back({1.0 * i, i % 3 == 0 ? "a.vtu" : i % 3 == 1 ? "./a.vtu" : "././a.vtu"});
+  write_pvd(folder / "often.pvd", entries);
+  const auto before = std::chrono::steady_clock::now();
+  const RecordedPositions record(folder / "often.pvd");
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(5));
+  EXPECT_EQ(record.times().size(), std::size_t{n});
+  EXPECT_EQ(record.displacement({1.0, 1.0}, 123.5), Point(0.0, 0.0));
 }
 
 Motion recorded_motion(const Mesh& mesh, const std::filesystem::path& file, const char* on = "all") {

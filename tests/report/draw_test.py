@@ -1,12 +1,14 @@
 """kinemesh draw: what is in its figures, and what it refuses."""
 
 import json
+import os
 import random
 import re
 import shutil
 import struct
 import tempfile
 import unittest
+import xml.etree.ElementTree
 from pathlib import Path
 
 from runs import program, run_rotor
@@ -77,6 +79,26 @@ class Drawings(unittest.TestCase):
         whole, part = self.draw("--title", "a < b"), self.draw("--zoom", "0,0,4,4")
         self.assertIn(b"a &lt; b", whole)
         self.assertLess(len(part), len(whole) / 2)
+
+    def test_any_title_makes_a_well_formed_picture(self):
+        wanted = [(bytes(range(1, 256)), r"\x01\x02\x03\x04\x05\x06\x07\x08\t\n\x0b"), (b"\xff\xfe", r"\xff\xfe"),
+                  (b"</text><script>alert(1)</script>", "</text><script>alert(1)</script>"),
+                  (b"]]>&#0;<!-- &amp; %s", "]]>&#0;<!-- &amp; %s"), ("\ufffe\uffff".encode(), r"\ufffe\uffff"),
+                  ("\u202e\u2028\x85".encode(), r"\u202e\u2028\u0085"), ("\xe9t\xe9 \u7ffc".encode(), "\xe9t\xe9 \u7ffc"),
+                  (b"x" * 100_000, "x" * 1000 + "...")]
+        for title, shown in wanted:
+            svg = self.draw("--title", os.fsdecode(title))
+            self.assertIn(shown, "".join(xml.etree.ElementTree.fromstring(svg).itertext()))
+            self.assertEqual(self.draw("--title", os.fsdecode(title), "--width", 100, out="f.png")[:4], b"\x89PNG")
+
+    def test_a_region_of_any_shape_keeps_to_the_page(self):
+        for zoom in ("0,0,1e-300,1", "-1e308,-1e308,1e308,1e308", "0,0,1e308,1e-308", "0,0,5e-324,5e-324"):
+            svg = self.draw("--region", self.folder / "seed.json", f"--zoom={zoom}").decode()
+            width, height = (float(n) for n in re.match(r'<svg [^>]*width="([^"]*)" height="([^"]*)"', svg).groups())
+            self.assertEqual(width, 1000)
+            self.assertLessEqual(height, 10 * width + 100)
+            self.assertNotIn("nan", svg)
+            self.assertNotIn("inf", svg)
 
     def test_a_step_of_a_run(self):
         run_rotor(self.folder, "run")

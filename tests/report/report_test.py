@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 import zlib
 from pathlib import Path
@@ -218,6 +219,51 @@ class Reports(unittest.TestCase):
         file.write_text(f'strategy,{header}\nglobal,{row}\n"global,{row}\nglobal,{row}\n')
         done = program("report", self.folder / "quoted")
         self.assertEqual((done.returncode, "bench.csv:3: a quote that does not end\n" in done.stderr), (2, True))
+
+    def test_names_are_text_on_the_page(self):
+        usual = self.report("bench")[0]
+        tag = "<script>alert(1)<!--\u2028"
+        folder = self.folder / tag
+        folder.mkdir()
+        header, row = (self.folder / "rotor/steps.csv").read_text().split("\n")[:2]
+        end = "</script>" + tag + "\x1b\"\\"
+        quoted = '"' + end.replace('"', '""') + '"'
+        lines = [f"strategy,{header},{quoted}", f"{quoted},{row},{quoted}", f"{quoted},{row},x"]
+        (folder / "bench.csv").write_bytes("\n".join([*lines, ""]).encode() + b"\xff," + row.encode() + b",\xff\n")
+        (folder / "scenario.toml").write_text(end)
+        (folder / "run.json").write_text(json.dumps({"stopped": end, "version": end}))
+        html, data = self.report(tag, out="tag")
+        for what in ("<script", "</script", "<!--", "\u2028", "\x1b"):
+            self.assertEqual(html.count(what), usual.count(what), what)
+        self.assertEqual(data["title"], "kinemesh: " + tag)
+        self.assertEqual(data["scenario"], end)
+        self.assertIn("The run stopped: " + end, data["notes"])
+        self.assertEqual(data["bench"]["strategies"], [end, "\ufffd"])
+        self.assertEqual(data["bench"]["swept"], [end])
+
+    def test_of_a_long_sweep_some_values_are_shown(self):
+        header, row = (self.folder / "rotor/steps.csv").read_text().split("\n")[:2]
+        (self.folder / "long").mkdir()
+        lines = ["strategy," + header + ",key"]
+        lines += [f"{name},{row},{n}" for n in range(40_000) for name in ("global", "remesh")]
+        (self.folder / "long/bench.csv").write_text("\n".join(lines) + "\n")
+        start = time.monotonic()
+        html, data = self.report("long")
+        self.assertLess(time.monotonic() - start, 60)
+        self.assertLess(len(html), 1_000_000)
+        self.assertEqual(data["bench"]["rows"]["key"], [n for n in range(0, 40_000, 200) for _ in range(2)])
+        self.assertIn("one of every 200 of its 40000 values", " ".join(data["notes"]))
+
+    def test_of_a_long_benchmark_some_steps_are_shown(self):
+        header, row = (self.folder / "rotor/steps.csv").read_text().split("\n")[:2]
+        (self.folder / "steps").mkdir()
+        lines = ["strategy," + header]
+        lines += [f"{name},{n},{row.split(',', 1)[1]}" for n in range(60_000) for name in ("global", "remesh")]
+        (self.folder / "steps/bench.csv").write_text("\n".join(lines) + "\n")
+        html, data = self.report("steps")
+        self.assertEqual(data["bench"]["rows"]["step"], [n for n in range(0, 60_000, 3) for _ in range(2)])
+        self.assertEqual(data["bench"]["rows"]["strategy"], ["global", "remesh"] * 20_000)
+        self.assertIn("one of every 3 steps", " ".join(data["notes"]))
 
     def test_thinning_keeps_the_peak_and_is_told(self):
         _, data = self.report("many")

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <functional>
+#include <limits>
+
 #include "core/io/atomic_file.h"
 #include "motion/registry.h"
 #include "sim/binary.h"
@@ -228,6 +231,21 @@ std::string last_error(const test::TemporaryFolder& folder, const std::string& s
   } catch (const InputError& error) {
     return error.what();
   }
+}
+
+TEST(Checkpoint, StepsAndTimesThatNoRunHasAreRefused) {
+  const test::TemporaryFolder folder;
+  const auto refused = [&](const std::function<void(Checkpoint&)>& change) {
+    Checkpoint checkpoint = small_checkpoint();
+    change(checkpoint);
+    write_checkpoint(folder.path(), checkpoint);
+    EXPECT_THAT(last_error(folder, checkpoint.scenario), HasSubstr(": a step or a time that no run has"));
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused([](Checkpoint& c) { c.step = -1; });
+  refused([&](Checkpoint& c) { c.time = nan; });
+  refused([&](Checkpoint& c) { c.adaptive.position = nan; });
+  refused([](Checkpoint& c) { c.adaptive.length = 0.0; });
 }
 
 TEST(Checkpoint, ErrorsNameTheFileAndOfferTheOneBefore) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <glm/geometric.hpp>
 
 #include "core/build.h"
@@ -60,6 +61,19 @@ TEST_F(FileFields, AreNamedRelativeToTheScenarioAndWrittenOutWhole) {
   const Scenario one = scenario("field = 'grid'\nfile = 'x/../wind.csv'\n");
   EXPECT_EQ(std::get<std::string>(one.motions[0].parameters.at("file")), (folder_ / "wind.csv").string());
   EXPECT_EQ(to_toml(parse_scenario(to_toml(one), "/elsewhere/s.toml")), to_toml(one));
+}
+
+TEST_F(FileFields, AFileThatManyMotionsNameIsReadOnce) {
+  std::string table = "x,y,u,v\n", motions;
+  for (int i = 0; i < 20'000; ++i) table += std::to_string(i) + ",0,1,0\n";
+  for (int i = 0; i < 1000; ++i) motions += "[[motion]]\nfield = 'grid'\nfile = 'x/../wind.csv'\n";
+  folder_.write("wind.csv", table);
+  const auto before = std::chrono::steady_clock::now();
+  const Scenario many = parse_scenario(
+      "[mesh]\nshape = 'square'\nvertices = 20\n[time]\ndt = 0.1\nend = 2\n" + motions, folder_ / "s.toml");
+  EXPECT_EQ(many.motions.size(), 1000u);
+  EXPECT_NO_THROW(set_up(many));
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(5));
 }
 
 TEST_F(FileFields, ErrorsNameTheLineOfTheTableOrOfTheScenario) {

@@ -4,9 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <cstring>
+#include <limits>
 #include <map>
 
 #include "core/io/mesh_io.h"
+#include "sim/binary.h"
 #include "sim/run.h"
 #include "tests/sim/helpers.h"
 
@@ -152,6 +157,37 @@ TEST_F(Patches, RefusesWhatItIsNot) {
   other[20] = 1;  // one point instead of 150
   folder_.write("out/patches.bin", other);
   EXPECT_THAT(error(), HasSubstr("damaged"));
+}
+
+// A list says how many things it has; each takes more memory than the byte that could prove it.
+TEST_F(Patches, TakeNoMemoryForThingsThatAreNotThere) {
+  const auto block = [](const std::string& bytes) {
+    return binary::bytes_of(std::uint64_t{bytes.size()}) + bytes + '\n';
+  };
+  const std::string start = binary::bytes_of(std::vector<Point>{{0, 0}, {1, 0}, {0, 1}}) +
+                            binary::bytes_of(std::vector<Triangle>{{0, 1, 2}}) +
+                            binary::bytes_of(std::vector<int>{0});
+  constexpr std::uint64_t many = 1 << 24;
+  const std::string step = binary::bytes_of(1) + binary::bytes_of(0.5) + binary::bytes_of(std::uint64_t{0}) +
+                           binary::bytes_of(std::uint64_t{0}) + binary::bytes_of(many);
+  folder_.write("patches.bin", "KMPATCH\n" + binary::bytes_of(std::uint32_t{1}) + block(start) +
+                                   block(step + std::string(many, '\xff')));
+  struct rusage before {
+  }, after{};
+  getrusage(RUSAGE_SELF, &before);
+  PatchesReader reader(folder_ / "patches.bin");
+  EXPECT_THROW(reader.next(), InputError);
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 256 * 1024);  // KiB; 144 bytes for each would be 2 GiB
+}
+
+TEST_F(Patches, AreRefusedWithAVertexAtNoPlace) {
+  (void)run_here(scenario(jitter, ""));
+  std::string content = test::content_of(file());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::memcpy(content.data() + 28, &nan, sizeof nan);
+  folder_.write("out/patches.bin", content);
+  EXPECT_THAT(error(), HasSubstr("a vertex at no finite place"));
 }
 
 TEST_F(Patches, AreNotWrittenUnlessWanted) {

@@ -119,6 +119,9 @@ TEST_F(ResumeTest, DropsWhatIsLaterThanTheCheckpoint) {
   fs::remove(out / "checkpoint.bin");
   ASSERT_EQ(parse_checkpoint(read_file(out / "checkpoint_prev.bin")).step, 6);
   folder_.write("out/steps.csv", test::content_of(out / "steps.csv") + "8,0.4,0.05,15");
+  auto json = nlohmann::json::parse(test::content_of(out / "run.json"));
+  json["files"].push_back("mesh_000010.vtu");  // as killed after step 10
+  folder_.write("out/run.json", json.dump());
   folder_.write("out/mesh_000010.vtu", "later");
   folder_.write("out/.kinemesh-123-4.tmp", "half");
   folder_.write("out/checkpoint_next.bin", "half");
@@ -166,7 +169,9 @@ TEST_F(ResumeTest, LeavesAFinishedRunAlone) {
 TEST_F(ResumeTest, WritesTheEndOfARunThatHasNone) {
   (void)run_in("out", scenario(), false);
   const auto expected = results_in(folder_ / "out");
-  fs::remove(folder_ / "out/run.json");
+  auto json = nlohmann::json::parse(test::content_of(folder_ / "out/run.json"));
+  json["state"] = "running";
+  folder_.write("out/run.json", json.dump());
   fs::remove(folder_ / "out/final.su2");
   const auto summary = run_in("out", scenario(), true);
   EXPECT_FALSE(summary.was_finished);

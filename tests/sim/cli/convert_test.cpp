@@ -99,10 +99,10 @@ TEST_F(Convert, BadInputLeavesTheOldOutput) {
   EXPECT_EQ(text("out.off"), "precious\n");
 }
 
-TEST_F(Convert, InPlace) {
+TEST_F(Convert, NotInPlace) {
   write("mesh.off", grid_off(2));
-  convert("mesh.off", "mesh.off");
-  EXPECT_EQ(run({"check", "mesh.off"}).code, 0);
+  expect_error(run({"convert", "mesh.off", "mesh.off"}), 2, {"mesh.off", "IN and OUT name the same file"});
+  EXPECT_EQ(text("mesh.off"), grid_off(2));
   EXPECT_EQ(files(), std::vector<std::string>{"mesh.off"});
 }
 

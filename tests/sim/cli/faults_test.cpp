@@ -27,22 +27,6 @@ const char* const scenario =
     "[time]\ndt = 0.1\nsteps = 6\n"
     "[output]\nevery = 2\ncheckpoint = 3\npatches = true\n";
 
-// The environment of a program that is started while this lives.
-class Environment {
- public:
-  explicit Environment(std::map<std::string, std::string> variables) : variables_(std::move(variables)) {
-    for (const auto& [name, value] : variables_) setenv(name.c_str(), value.c_str(), 1);
-  }
-  ~Environment() {
-    for (const auto& [name, value] : variables_) unsetenv(name.c_str());
-  }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
- private:
-  std::map<std::string, std::string> variables_;
-};
-
 class Faults : public ProgramTest {
  protected:
   void SetUp() override {
@@ -71,8 +55,10 @@ class Faults : public ProgramTest {
     return run(command(folder));
   }
 
-  // Logs of whole steps, the same number of them in both, and meshes that belong to them.
+  // Logs of whole steps, the same number of them in both, and meshes that belong to them. Where it has not come so far
+  // that there is a folder, nothing.
   void expect_whole_steps(const std::string& folder) const {
+    if (!fs::exists(path(folder))) return;
     const Results left = test::results_in(path(folder));
     size_t steps = 0;
     for (const auto& [name, content] : left) {
@@ -95,7 +81,12 @@ class Faults : public ProgramTest {
     std::string upto;
     for (const auto& line : lines_of(expected_.at("regions.csv")))
       if (line.starts_with("step") || std::stoul(line) < rows) upto += line + "\n";
-    EXPECT_EQ(left.at("regions.csv"), upto);
+    // A run that could not be gone on with has its regions as they were found, behind its checkpoint, too.
+    const bool has_not_begun = rows == rows_found_;
+    if (has_not_begun)
+      EXPECT_TRUE(left.at("regions.csv").starts_with(upto));
+    else
+      EXPECT_EQ(left.at("regions.csv"), upto);
   }
 
   void expect_resumes(const std::string& folder) const {
@@ -141,6 +132,7 @@ class Faults : public ProgramTest {
   }
 
   Results expected_;
+  size_t rows_found_ = 0;  // of steps.csv up to the checkpoint, with its header, where there is one
 };
 
 TEST_F(Faults, OfANewRunLoseNothing) {
@@ -151,6 +143,7 @@ TEST_F(Faults, OfAResumedRunLoseNothing) {
   const int late = calls_of("scratch") * 3 / 4;
   ASSERT_EQ(run_with_fault("killed", "kill", late).code, 128 + SIGKILL);
   ASSERT_TRUE(fs::exists(path("killed/checkpoint.bin")));
+  rows_found_ = 1 + 3;
   try_all([&](const std::string& folder) { fs::copy(path("killed"), path(folder)); });
 }
 

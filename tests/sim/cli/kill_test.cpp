@@ -36,22 +36,16 @@ pid_t child_of(pid_t process) {
   return std::atoi(read_text("/proc/" + id + "/task/" + id + "/children").c_str());
 }
 
-std::vector<std::string> in_namespace(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{"unshare", "--pid", "--fork", "--kill-child", KINEMESH_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return words;
-}
-
 class Kill : public ProgramTest {
  protected:
-  Kill() : has_namespaces_(wait(start_words(in_namespace({"--version"}))).code == 0) {
+  Kill() : has_namespaces_(wait(start_in_namespace({"--version"})).code == 0) {
     static bool told = false;
     if (!has_namespaces_ && !std::exchange(told, true))
       std::printf("skipped: pid namespaces, which this system does not allow; numbers of processes differ\n");
   }
 
   pid_t begin(const std::vector<std::string>& arguments) const {
-    return has_namespaces_ ? start_words(in_namespace(arguments)) : start(arguments);
+    return has_namespaces_ ? start_in_namespace(arguments) : start(arguments);
   }
 
   // Killed some time after its start; false if it had ended by then.

@@ -2,10 +2,13 @@
 
 #include <fcntl.h>
 #include <pty.h>
+#include <sched.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -26,9 +29,24 @@ fs::path make_folder(const char* kind) {
   if (out_file >= 0 && err_file >= 0 && chdir(folder) == 0) {
     dup2(out_file, STDOUT_FILENO);
     dup2(err_file, STDERR_FILENO);
-    execvp(argv[0], argv);
+    execv(argv[0], argv);
   }
   _exit(99);
+}
+
+// In the child: becomes the parent of the program, which is number 1 of a new namespace, and ends as it does. Nothing but
+// calls that are safe after fork.
+void enter_namespace() {
+  if (unshare(CLONE_NEWPID) != 0) _exit(98);
+  const pid_t program = fork();
+  if (program == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    return;
+  }
+  int status = 0;
+  waitpid(program, &status, 0);
+  if (WIFSIGNALED(status)) raise(WTERMSIG(status));
+  _exit(WEXITSTATUS(status));
 }
 
 }  // namespace
@@ -73,19 +91,26 @@ std::vector<std::string> ProgramTest::files() const {
 }
 
 pid_t ProgramTest::start(const std::vector<std::string>& arguments, int err_file) const {
-  std::vector<std::string> words{KINEMESH_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return start_words(std::move(words), err_file);
+  return start(arguments, err_file, false);
 }
 
-pid_t ProgramTest::start_words(std::vector<std::string> words, int err_file) const {
+pid_t ProgramTest::start_in_namespace(const std::vector<std::string>& arguments) const {
+  return start(arguments, -1, true);
+}
+
+pid_t ProgramTest::start(const std::vector<std::string>& arguments, int err_file, bool in_namespace) const {
+  std::vector<std::string> words{KINEMESH_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   const std::string out = capture_ / "out", err = capture_ / "err";
   const int kept = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   const pid_t process = fork();
-  if (process == 0) become_program(folder_.c_str(), out.c_str(), err_file < 0 ? kept : err_file, argv.data());
+  if (process == 0) {
+    if (in_namespace) enter_namespace();
+    become_program(folder_.c_str(), out.c_str(), err_file < 0 ? kept : err_file, argv.data());
+  }
   close(kept);
   return process;
 }

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,22 @@ struct Result {
 std::vector<std::string> lines_of(const std::string& text);
 std::string read_text(const std::filesystem::path& path);
 
+// The environment of a program that is started while this lives.
+class Environment {
+ public:
+  explicit Environment(std::map<std::string, std::string> variables) : variables_(std::move(variables)) {
+    for (const auto& [name, value] : variables_) setenv(name.c_str(), value.c_str(), 1);
+  }
+  ~Environment() {
+    for (const auto& [name, value] : variables_) unsetenv(name.c_str());
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  std::map<std::string, std::string> variables_;
+};
+
 // A test with an empty folder, removed afterwards.
 class ProgramTest : public ::testing::Test {
  protected:
@@ -37,8 +54,9 @@ class ProgramTest : public ::testing::Test {
 
   pid_t start(const std::vector<std::string>& arguments, int err_file = -1) const;  // -1: kept for wait
 
-  // Any program with its arguments, looked for on the path.
-  pid_t start_words(std::vector<std::string> words, int err_file = -1) const;
+  // As the first process of a pid namespace of its own, with the number 1 there, where the system allows it; the process
+  // that is returned ends as the program does, and the program with it.
+  pid_t start_in_namespace(const std::vector<std::string>& arguments) const;
   Result wait(pid_t process) const;
 
   // Likewise, with a terminal as its stderr, of so many columns (0: unknown). Pre: has_terminals(), as machines with /dev/pts do.
@@ -49,6 +67,8 @@ class ProgramTest : public ::testing::Test {
   void expect_error(const Result& result, int code, std::initializer_list<const char*> words) const;
 
  private:
+  pid_t start(const std::vector<std::string>& arguments, int err_file, bool in_namespace) const;
+
   std::filesystem::path folder_;
   std::filesystem::path capture_;
 };

@@ -102,7 +102,7 @@ TEST_F(Usage, QuadrilateralsNeedTheirOption) {
 TEST_F(Usage, OutputThatDoesNotArriveIsNotSuccess) {
   const auto expect_failure = [&](const std::string& redirection) {
     const std::string command = KINEMESH_PROGRAM " list " + redirection + " 2> " + path("err").string();
-    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1) << redirection;
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3) << redirection;
     EXPECT_EQ(read_text(path("err")), "kinemesh: cannot write to standard output\n") << redirection;
   };
   expect_failure(">&-");
