@@ -111,7 +111,8 @@ double ConjugateGradients<Weight>::sum_blocks(int begin, int end) {
   return square;
 }
 
-// The preconditioned residual is the residual over the diagonal plus the block's correction; it is not stored.
+// The preconditioned residual is the residual over the diagonal plus the block's correction; it is not
+// stored.
 template <class Weight>
 auto ConjugateGradients<Weight>::precondition(double residual) -> Squares {
   vectors_.correction = vectors_.sums;

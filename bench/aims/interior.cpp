@@ -1,4 +1,5 @@
-// The interior's increments while the cylinder in a channel moves, against CGAL's triangulation of the same points.
+// The interior's increments while the cylinder in a channel moves, against CGAL's triangulation of the same
+// points.
 #include "motion/interior.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,8 @@ constexpr int repeats = 5;
 constexpr double way = 0.3;    // of the cylinder in a step, in spacings
 constexpr double turn = 0.05;  // of its direction from step to step, in radians
 
-// The mesh of a step is that of the last one with its vertices moved; a step starts from what the last one found.
+// The mesh of a step is that of the last one with its vertices moved; a step starts from what the last one
+// found.
 class Channel {
  public:
   explicit Channel(int n)

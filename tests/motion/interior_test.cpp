@@ -205,8 +205,8 @@ TEST(Interior, ConvergesToHarmonicFunctionsWhereFacesAreEqual) {
   });
 }
 
-// Columns get wider by e^(a x): the stiffness is e^(-a x), and X(x) Y(y) with X = e^(m x), m^2 - a m = l^2, Y = sin(l y)
-// solves div(e^(-a x) grad u) = 0.
+// Columns get wider by e^(a x): the stiffness is e^(-a x), and X(x) Y(y) with X = e^(m x), m^2 - a m = l^2, Y
+// = sin(l y) solves div(e^(-a x) grad u) = 0.
 TEST(Interior, ConvergesToTheSolutionWithStiffnessOneOverArea) {
   constexpr double a = 1.5, l = 2.0;
   const double m = 0.5 * (a + std::sqrt(a * a + 4.0 * l * l));
