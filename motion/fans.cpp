@@ -30,6 +30,12 @@ void for_each_slot(const Mesh& mesh, int vertex, const Visit& visit) {
 
 }  // namespace
 
+void Fans::reserve(const Mesh& mesh) {
+  start_.reserve(mesh.n_vertices() + 1);
+  neighbours_.reserve(2 * mesh.n_edges());
+  faces_.reserve(2 * mesh.n_edges());
+}
+
 void Fans::build(const Mesh& mesh, const std::vector<char>& has_row) {
   const int n = mesh.n_vertices();
   start_.assign(n + 1, 0);

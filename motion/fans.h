@@ -12,8 +12,9 @@ namespace kinemesh {
 // next one, cyclically, or none where there is a gap: padding, or the outside.
 class Fans {
  public:
-  // Of the vertices with has_row; those of others are empty. In all threads. Takes memory once, unless the
-  // mesh changes its size.
+  void reserve(const Mesh& mesh);
+
+  // Of the vertices with has_row; those of others are empty. In all threads.
   void build(const Mesh& mesh, const std::vector<char>& has_row);
 
   int n_vertices() const { return static_cast<int>(start_.size()) - 1; }

@@ -37,6 +37,8 @@ void scale_faces(const Mesh& mesh, std::span<const Point> positions, const std::
 template <class Weight>
 class Stiffness {
  public:
+  void reserve(int slots) { weights_.reserve(slots); }
+
   // Where the vertices are. Pre: fans of the mesh the scales are of. In all threads. Symmetric to the last
   // bit.
   void fill(const Fans& fans, std::span<const Point> positions, std::span<const double> scales);
