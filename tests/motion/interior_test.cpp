@@ -444,6 +444,21 @@ TEST(Interior, BearsFlatAndInvertedFacesHalfway) {
   }
 }
 
+TEST(Interior, BearsFacesWithoutExtent) {
+  for (const Follow follow : follows) {
+    Case c = with_border(grid(12), [](const Point& p) { return 0.01 * Point(p.y, 1.0); });
+    c.others.assign(c.mesh.n_vertices(), Point(0.0, 0.0));
+    const Point middle = c.mesh.position(grid_vertex(c.mesh, 12, 6, 6));
+    const auto way = solved(c, {.follow = follow, .tolerance = 1e-13});
+    for (int i = 4; i <= 8; ++i)
+      for (int j = 4; j <= 8; ++j) {  // all to one point, but for rounding of the increments
+        const int v = grid_vertex(c.mesh, 12, i, j);
+        c.others[v] = 2.0 * (middle - c.mesh.position(v)) - way[v];
+      }
+    EXPECT_LE(largest(solved(c, {.follow = follow})), 0.02);
+  }
+}
+
 TEST(Interior, BearsNeedles) {
   MeshData data = mapped(grid(10), [](const Point& p) { return Point(p.x, 1e-9 * p.y); });
   for (const Follow follow : follows) {
