@@ -7,20 +7,21 @@
 namespace kinemesh {
 namespace {
 
-double inverse_along(double diagonal, const Point&) {
-  return 1.0 / diagonal;
-}
-
-Block inverse_along(const Block& diagonal, const Point& tangent) {
-  return glm::outerProduct(tangent, tangent) / glm::dot(tangent, diagonal * tangent);
-}
-
+// Of 0, which is the diagonal where no face has an extent, it is 0: such a vertex stays at its start.
 double inverse_of(double diagonal) {
-  return 1.0 / diagonal;
+  return diagonal > 0.0 ? 1.0 / diagonal : 0.0;
 }
 
 Block inverse_of(const Block& diagonal) {
-  return glm::inverse(diagonal);
+  return diagonal[0][0] > 0.0 ? glm::inverse(diagonal) : Block(0.0);
+}
+
+double inverse_along(double diagonal, const Point&) {
+  return inverse_of(diagonal);
+}
+
+Block inverse_along(const Block& diagonal, const Point& tangent) {
+  return glm::outerProduct(tangent, tangent) * inverse_of(glm::dot(tangent, diagonal * tangent));
 }
 
 }  // namespace
@@ -111,7 +112,8 @@ double ConjugateGradients<Weight>::sum_blocks(int begin, int end) {
   return square;
 }
 
-// The preconditioned residual is the residual over the diagonal plus the block's correction; it is not stored.
+// The preconditioned residual is the residual over the diagonal plus the block's correction; it is not
+// stored.
 template <class Weight>
 auto ConjugateGradients<Weight>::precondition(double residual) -> Squares {
   vectors_.correction = vectors_.sums;

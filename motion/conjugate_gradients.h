@@ -26,8 +26,9 @@ struct GradientVectors {
   std::vector<Point> sums, correction;   // per block: residuals, and what the coarse level says of them
 };
 
-// Finds x with (K x)_v = 0, along the tangent only where v slides, at all vertices v with a row, x being given at the
-// others [Hestenes & Stiefel 1952]. Sums are formed in an order that depends on the number of vertices only.
+// Finds x with (K x)_v = 0, along the tangent only where v slides, at all vertices v with a row, x being
+// given at the others [Hestenes & Stiefel 1952]. Sums are formed in an order that depends on the number of
+// vertices only.
 template <class Weight>
 class ConjugateGradients {
  public:
@@ -35,8 +36,8 @@ class ConjugateGradients {
   ConjugateGradients(const Fans& fans, const SlidingVertices& sliding, CoarseLevel& coarse,
                      GradientVectors<Weight>& vectors);
 
-  // x: start vector before, last iterate after; vertices that slide have no part but the tangential one. Pre: `coarse`
-  // is factorized for a matrix near this one.
+  // x: start vector before, last iterate after; vertices that slide have no part but the tangential one. Pre:
+  // `coarse` is factorized for a matrix near this one.
   Convergence solve(const Stiffness<Weight>& stiffness, double tolerance, int max_iterations,
                     std::span<Point> x);
 

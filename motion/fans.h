@@ -8,12 +8,13 @@
 
 namespace kinemesh {
 
-// What row(vertex) has, counter-clockwise: neighbours in faces of the domain, and the face from each to the next one,
-// cyclically, or none where there is a gap: padding, or the outside.
+// What row(vertex) has, counter-clockwise: neighbours in faces of the domain, and the face from each to the
+// next one, cyclically, or none where there is a gap: padding, or the outside.
 class Fans {
  public:
-  // Of the vertices with has_row; those of others are empty. In all threads. Takes memory once, unless the mesh
-  // changes its size.
+  void reserve(const Mesh& mesh);
+
+  // Of the vertices with has_row; those of others are empty. In all threads.
   void build(const Mesh& mesh, const std::vector<char>& has_row);
 
   int n_vertices() const { return static_cast<int>(start_.size()) - 1; }
@@ -21,18 +22,12 @@ class Fans {
   int begin(int vertex) const { return start_[vertex]; }
   int end(int vertex) const { return start_[vertex + 1]; }
   bool has_row(int vertex) const { return begin(vertex) != end(vertex); }
-  int neighbour(int slot) const { return slots_[slot].neighbour; }
-  int face(int slot) const {
-    return slots_[slot].face;
-  }  // neighbour(slot), the next one and the vertex; or none
+  int neighbour(int slot) const { return neighbours_[slot]; }
+  int face(int slot) const { return faces_[slot]; }  // neighbour(slot), the next one and the vertex; or none
 
  private:
-  struct Slot {
-    int neighbour, face;
-  };
-
-  std::vector<int> start_;  // per vertex, and one more
-  std::vector<Slot> slots_;
+  std::vector<int> start_;               // per vertex, and one more
+  std::vector<int> neighbours_, faces_;  // per slot
 };
 
 }  // namespace kinemesh

@@ -61,7 +61,12 @@ class Interior::Solver {
 template <class Weight>
 class Interior::WeightedSolver : public Interior::Solver {
  public:
-  explicit WeightedSolver(const InteriorOptions& options) : options_(options) {}
+  WeightedSolver(const Mesh& mesh, const InteriorOptions& options) : options_(options) {
+    fans_.reserve(mesh);
+    stiffness_.reserve(2 * mesh.n_edges());
+    scales_.reserve(mesh.n_faces());
+    halfway_.reserve(mesh.n_vertices());
+  }
 
   InteriorSolution solve(const Mesh& mesh, const InteriorProblem& problem,
                          std::span<Point> increments) override {
@@ -99,10 +104,10 @@ class Interior::WeightedSolver : public Interior::Solver {
   std::vector<Point> halfway_;  // positions
 };
 
-Interior::Interior(const Mesh&, const InteriorOptions& options) {
+Interior::Interior(const Mesh& mesh, const InteriorOptions& options) {
   check(options);
-  if (options.follow == Follow::Harmonic) solver_ = std::make_unique<WeightedSolver<double>>(options);
-  if (options.follow == Follow::Elastic) solver_ = std::make_unique<WeightedSolver<Block>>(options);
+  if (options.follow == Follow::Harmonic) solver_ = std::make_unique<WeightedSolver<double>>(mesh, options);
+  if (options.follow == Follow::Elastic) solver_ = std::make_unique<WeightedSolver<Block>>(mesh, options);
 }
 
 Interior::~Interior() = default;

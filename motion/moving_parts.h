@@ -11,8 +11,8 @@ namespace kinemesh {
 
 enum class Role : std::uint8_t;
 
-// Vertices that are not Known fall into parts: two of a face of the domain belong to the same. A part moves if a
-// Known vertex of one of its faces does.
+// Vertices that are not Known fall into parts: two of a face of the domain belong to the same. A part moves
+// if a Known vertex of one of its faces does.
 class MovingParts {
  public:
   // O(n) but for a slowly growing factor.

@@ -7,8 +7,8 @@
 
 namespace kinemesh {
 
-// A symmetric matrix by the rows of its lower half, columns ascending and the diagonal last: what is above need not be
-// there.
+// A symmetric matrix by the rows of its lower half, columns ascending and the diagonal last: what is above
+// need not be there.
 struct LowerMatrix {
   std::vector<int> start;   // per row, and one more
   std::vector<int> column;  // per entry

@@ -38,8 +38,8 @@ int last_vertex(const Fans& fans, int block) {
   return std::min((block + 1) * block_vertices, fans.n_vertices());
 }
 
-// Calls visit(v, slot, block of the neighbour) for the block's rows and their neighbours that have rows, in blocks up
-// to this one.
+// Calls visit(v, slot, block of the neighbour) for the block's rows and their neighbours that have rows, in
+// blocks up to this one.
 template <class Visit>
 void for_each_lower_slot(const Fans& fans, int block, const Visit& visit) {
   for (int v = block * block_vertices; v < last_vertex(fans, block); ++v)

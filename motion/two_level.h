@@ -1,8 +1,8 @@
 // The coarse level of a preconditioner: displacements that are constant on blocks of vertices.
 //
-// Additive Schwarz of two levels with a coarse space of piecewise constants [Nicolaides 1987; Smith 1996, ch. 2]: the
-// diagonal takes care of what varies from vertex to vertex, and of the rest, a matrix of one row or two for 32
-// vertices, CHOLMOD does the whole. Iterations hardly depend on the size of the mesh.
+// Additive Schwarz of two levels with a coarse space of piecewise constants [Nicolaides 1987; Smith 1996, ch.
+// 2]: the diagonal takes care of what varies from vertex to vertex, and of the rest, a matrix of one row or
+// two for 32 vertices, CHOLMOD does the whole. Iterations hardly depend on the size of the mesh.
 #pragma once
 
 #include <span>
@@ -15,18 +15,20 @@
 
 namespace kinemesh {
 
-// Coarse unknowns are the blocks of motion/vertex_blocks.h, once for both coordinates where the matrix is the same for
-// both and does not mix them, and else twice.
+// Coarse unknowns are the blocks of motion/vertex_blocks.h, once for both coordinates where the matrix is the
+// same for both and does not mix them, and else twice.
 class CoarseLevel {
  public:
-  // Finds which blocks are neighbours. In all threads, but for the ordering of the matrix: O(n / 32) times a logarithm.
+  // Finds which blocks are neighbours. In all threads, but for the ordering of the matrix: O(n / 32) times a
+  // logarithm.
   void analyze(const Fans& fans, bool is_coupled);
 
   // Pre: analyzed with the same fans, and is_coupled for Block and wherever vertices slide.
   template <class Weight>
   void factorize(const Fans& fans, const Stiffness<Weight>& stiffness, const SlidingVertices& sliding);
 
-  // Sums of residuals per block become corrections, the same for all its vertices; 0 if the matrix is singular.
+  // Sums of residuals per block become corrections, the same for all its vertices; 0 if the matrix is
+  // singular.
   void solve(std::span<Point> blocks);
 
  private:

@@ -1,4 +1,5 @@
-// Vertices in blocks that lie together along the mesh's Hilbert curve, and loops over them. For .cpp files: brings TBB.
+// Vertices in blocks that lie together along the mesh's Hilbert curve, and loops over them. For .cpp files:
+// brings TBB.
 #pragma once
 
 #include <numeric>
@@ -17,8 +18,8 @@ inline int n_blocks(int n_vertices) {
   return (n_vertices + block_vertices - 1) / block_vertices;
 }
 
-// Calls body(part, begin, end), vertices begin to end, for each part in all threads. Parts are of whole blocks and
-// depend on n only.
+// Calls body(part, begin, end), vertices begin to end, for each part in all threads. Parts are of whole
+// blocks and depend on n only.
 template <class Body>
 void parallel_blocks(int n_vertices, const Body& body) {
   constexpr int grain = 64;  // blocks

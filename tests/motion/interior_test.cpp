@@ -205,8 +205,8 @@ TEST(Interior, ConvergesToHarmonicFunctionsWhereFacesAreEqual) {
   });
 }
 
-// Columns get wider by e^(a x): the stiffness is e^(-a x), and X(x) Y(y) with X = e^(m x), m^2 - a m = l^2, Y = sin(l y)
-// solves div(e^(-a x) grad u) = 0.
+// Columns get wider by e^(a x): the stiffness is e^(-a x), and X(x) Y(y) with X = e^(m x), m^2 - a m = l^2, Y
+// = sin(l y) solves div(e^(-a x) grad u) = 0.
 TEST(Interior, ConvergesToTheSolutionWithStiffnessOneOverArea) {
   constexpr double a = 1.5, l = 2.0;
   const double m = 0.5 * (a + std::sqrt(a * a + 4.0 * l * l));
@@ -441,6 +441,21 @@ TEST(Interior, BearsFlatAndInvertedFacesHalfway) {
     send(5, 9, place(7, 9));
     const auto increments = solved(c, {.follow = follow});
     EXPECT_LE(largest(increments), 0.02);
+  }
+}
+
+TEST(Interior, BearsFacesWithoutExtent) {
+  for (const Follow follow : follows) {
+    Case c = with_border(grid(12), [](const Point& p) { return 0.01 * Point(p.y, 1.0); });
+    c.others.assign(c.mesh.n_vertices(), Point(0.0, 0.0));
+    const Point middle = c.mesh.position(grid_vertex(c.mesh, 12, 6, 6));
+    const auto way = solved(c, {.follow = follow, .tolerance = 1e-13});
+    for (int i = 4; i <= 8; ++i)
+      for (int j = 4; j <= 8; ++j) {  // all to one point, but for rounding of the increments
+        const int v = grid_vertex(c.mesh, 12, i, j);
+        c.others[v] = 2.0 * (middle - c.mesh.position(v)) - way[v];
+      }
+    EXPECT_LE(largest(solved(c, {.follow = follow})), 0.02);
   }
 }
 
