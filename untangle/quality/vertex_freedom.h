@@ -17,7 +17,7 @@ struct VertexFreedom {
   // Vertices of sliding borders, and the unit vectors along which they may move, either way, though they are on
   // constrained edges. They stay strictly between the two ends of these edges; a vertex that is on another number
   // of them than two, or fixed, does not move.
-  std::unordered_map<int, Point> tangents;
+  std::unordered_map<int, Point> tangents = {};
 };
 
 }  // namespace kinemesh
