@@ -471,7 +471,7 @@ TEST(QualitySteps, NamesAreChecked) {
     Stepper(build_mesh(test::grid(2)), {.quality = "best"});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "no quality is named 'best'; known are: none, delaunay, smooth");
+    EXPECT_STREQ(error.what(), "no quality is named 'best'; known are: none, delaunay, smooth, angles");
   }
 }
 
