@@ -290,8 +290,8 @@ TimeSpec read_time(TomlTable& table) {
 // Below 60 degrees; said with quality "angles" only.
 std::optional<double> read_angle(TomlTable& table, const std::string& quality) {
   const auto angle = table.positive("angle");
-  if (angle && quality != "angles") table.fail("angle", "has a meaning with quality = \"angles\" only");
-  if (angle && !(*angle < 60.0)) table.fail("angle", "a number of degrees below 60 expected");
+  if (angle && quality != "angles") table.fail("angle", "has a meaning with quality = 'angles' only");
+  if (angle && !(*angle < 60.0)) table.fail("angle", "degrees below 60 expected");
   return angle;
 }
 

@@ -98,7 +98,7 @@ TEST_P(EachStrategyAndQuality, MeshesComeBackAndGoOnBitForBit) {
 
 INSTANTIATE_TEST_SUITE_P(All, EachStrategyAndQuality,
                          testing::Combine(testing::Values("global", "local", "remesh", "kinetic"),
-                                          testing::Values("none", "delaunay", "smooth")),
+                                          testing::Values("none", "delaunay", "smooth", "angles")),
                          [](const auto& param) {
                            return std::string(std::get<0>(param.param)) + "_" + std::get<1>(param.param);
                          });

@@ -42,7 +42,7 @@ std::vector<Point> kicked(const Stepper& stepper, double kick, std::mt19937& ran
 std::vector<StepperOptions> all_ways() {
   std::vector<StepperOptions> all;
   for (const char* strategy : {"global", "local", "remesh", "kinetic", "auto"})
-    for (const char* quality : {"none", "delaunay", "smooth"})
+    for (const char* quality : {"none", "delaunay", "smooth", "angles"})
       for (const bool retain : {false, true})
         all.push_back({.strategy = strategy, .retain = retain, .quality = quality});
   return all;

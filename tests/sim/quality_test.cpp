@@ -395,6 +395,56 @@ TEST(SmoothSteps, GoOnFromWhereSmoothingLeftAVertex) {
 
 // --- both ---
 
+// --- angles ---
+
+TEST(AngleSteps, KeepTheAnglesOfTheAirfoil) {
+  Scenario scenario = shipped("airfoil-revolution", 1000);
+  scenario.repair.quality = "angles";
+  scenario.repair.angle = 20.0;
+  const auto made = set_up(scenario);
+  Stepper stepper(made.mesh, stepper_options(scenario.repair));
+  std::size_t moved = 0;
+  stepper.observe([&](const StepChanges& changes) { moved += changes.moved_by_quality.size(); });
+  for (int n = 1; n <= scenario.time.steps; ++n) {
+    const auto outcome = stepper.step_to(made.motion, scenario.time.time_after(n));
+    ASSERT_TRUE(outcome) << at_step(outcome);
+    ASSERT_GE(outcome.record.min_angle_deg, 20.0 * (1.0 - 1e-12)) << n;
+    ASSERT_EQ(outcome.record.min_angle_deg, measure(stepper.mesh()).min_angle_deg) << n;
+  }
+  expect_valid(stepper.mesh(), "airfoil");
+  EXPECT_LT(moved, 0.03 * stepper.mesh().n_user_vertices() * scenario.time.steps);
+}
+
+TEST(AngleSteps, DoNothingWhereNothingIsBad) {
+  Stepper stepper(build_mesh(test::grid(8), {.frame = 0.25, .fixed = {}}),
+                  {.quality = "angles", .angle = 44.0});
+  const auto before = snapshot(stepper.mesh());
+  const auto outcome = stepper.step(stepper.mesh().user_positions(), 1.0);
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome.record.repair.quality_flips + outcome.record.repair.quality_moves, 0);
+  EXPECT_EQ(snapshot(stepper.mesh()), before);
+}
+
+TEST(AngleSteps, MoveNothingThatIsHeld) {
+  const Mesh initial = build_mesh(test::grid_with_hole(12, 5, 7), {.frame = 0.25, .fixed = {}});
+  const Motion motion(initial, {{make_field("jitter", {{"amplitude", 0.3}}), {}}});
+  StepperOptions options{.quality = "angles"};
+  options.freedom.held.assign(initial.n_vertices(), true);
+  Stepper stepper(initial, options);
+  for (int n = 0; n < 10; ++n) {
+    const auto outcome = stepper.step(motion, 1.0);
+    ASSERT_TRUE(outcome) << at_step(outcome);
+    EXPECT_EQ(outcome.record.repair.quality_moves, 0);
+  }
+}
+
+TEST(AngleSteps, RefuseWhatIsNoAngle) {
+  const Mesh mesh = build_mesh(test::grid(3));
+  for (const double angle : {0.0, 60.0, -1.0, std::nan("")})
+    EXPECT_THROW(Stepper(mesh, {.quality = "angles", .angle = angle}), InputError) << angle;
+  EXPECT_NO_THROW(Stepper(mesh, {.quality = "smooth", .angle = 60.0}));
+}
+
 TEST(QualitySteps, LeaveNoTraceOfAFailure) {
   for (const char* quality : {"delaunay", "smooth"}) {
     Stepper stepper(build_mesh(test::grid_with_hole(8, 3, 5), {.frame = 0.25, .fixed = {}}),
@@ -421,7 +471,7 @@ TEST(QualitySteps, NamesAreChecked) {
     Stepper(build_mesh(test::grid(2)), {.quality = "best"});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "no quality is named 'best'; known are: none, delaunay, smooth");
+    EXPECT_STREQ(error.what(), "no quality is named 'best'; known are: none, delaunay, smooth, angles");
   }
 }
 

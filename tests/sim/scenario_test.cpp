@@ -203,7 +203,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Strategy", "[time]", "[repair]\nstrategy = 'globl'\n[time]",
                 "a.toml:6: strategy: unknown: 'globl', did you mean 'global'?"},
         Mistake{"Quality", "[time]", "[repair]\nquality = 'best'\n[time]",
-                "a.toml:6: quality: unknown: 'best', expected one of: none, delaunay, smooth"},
+                "a.toml:6: quality: unknown: 'best', expected one of: none, delaunay, smooth, angles"},
+        Mistake{"AngleOfAnother", "[time]", "[repair]\nquality = 'delaunay'\nangle = 20\n[time]",
+                "a.toml:7: angle: has a meaning with quality = 'angles' only"},
+        Mistake{"AngleOfNone", "[time]", "[repair]\nangle = 20\n[time]",
+                "a.toml:6: angle: has a meaning with quality = 'angles' only"},
+        Mistake{"NoAngle", "[time]", "[repair]\nquality = 'angles'\nangle = 0\n[time]", "a.toml:7: angle: "},
+        Mistake{"LargeAngle", "[time]", "[repair]\nquality = 'angles'\nangle = 60\n[time]",
+                "a.toml:7: angle: degrees below 60 expected"},
         Mistake{"Escaped", "[time]", "[repair]\nallow_escaped = 1\n[time]",
                 "a.toml:6: allow_escaped: 1, true or false expected"},
         Mistake{"Every", "[time]", "[output]\nevery = -1\n[time]",
@@ -211,6 +218,18 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Checkpoint", "[time]", "[output]\ncheckpoint = 'x'\n[time]",
                 "a.toml:6: checkpoint: 'x', an integer"}),
     [](const auto& mistake) { return std::string(mistake.param.what); });
+
+TEST(Scenario, HasAnAngleWithTheQualityThatWantsOne) {
+  const auto scenario = [](const std::string& repair) {
+    return parse_scenario(replaced(smallest, "[time]", "[repair]\n" + repair + "\n[time]"), "a.toml");
+  };
+  const Scenario given = scenario("quality = 'angles'\nangle = 20");
+  EXPECT_EQ(given.repair.angle, 20.0);
+  EXPECT_THAT(to_toml(given), testing::HasSubstr("quality = 'angles'\nangle = 20"));
+  EXPECT_EQ(scenario("quality = 'angles'").repair.angle, 25.0);
+  EXPECT_THAT(to_toml(scenario("quality = 'angles'")), testing::HasSubstr("angle = 25"));
+  EXPECT_THAT(to_toml(scenario("quality = 'smooth'")), testing::Not(testing::HasSubstr("angle")));
+}
 
 TEST(Scenario, NamesAFileThatIsNotThere) {
   try {

@@ -67,8 +67,8 @@ void for_each_around(const Mesh& mesh, int vertex, const Visit& visit) {
   });
 }
 
-// The smallest angles of the two faces beside an edge, and of those that its flip would make; the latter 0 if one of
-// them would not be upright, exactly.
+// The smallest angles of the two faces beside an edge, and of those that its flip would make; the latter 0 if
+// one of them would not be upright, exactly.
 struct FlipTangents {
   double before, after;
 };

@@ -24,25 +24,26 @@ struct AngleCounts {
   bool is_cut = false;  // memory was short, so that it ended early
 };
 
-// Optimization-based smoothing [Freitag 1995] and edge swaps, as Freitag and Ollivier-Gooch combine them [Freitag &
-// Ollivier-Gooch 1997], but only where needed and in an order of its own.
+// Moves [Freitag 1995] and flips where an angle is too small, combined as in [Klingner 2007].
 //
-// In rounds, each bad face proposes what leaves the largest smallest angle among the faces it touches: the flip of a
-// side, which touches two faces, or the move of a corner to its best place (untangle/quality/star.h), which touches
-// the faces around it. If none of these helps, the move of a vertex of a neighbouring face, one with a common vertex
-// and an angle below 1.15 times the wanted one. A proposal has to make the smallest angle of the faces it touches
-// larger, by 0.01 percent at least, and leave them upright, exactly. Of proposals that touch a common face that with the
-// smaller key is done: the smallest angle that is touched, then users' numbers of what it moves or flips. So greedily by
-// keys; the same come out if in turn each goes ahead whose key is smallest among those it shares faces with, as
-// machines with a part of the mesh each can find out [Luby 1986]. Ends when no proposal is left.
+// In rounds, each bad face proposes what leaves the largest smallest angle among the faces it touches: the
+// flip of a side, which touches two faces, or the move of a corner to its best place
+// (untangle/quality/star.h), which touches the faces around it. If none of these helps, the move of a vertex
+// of a neighbouring face, one with a common vertex and an angle below 1.15 times the wanted one. A proposal
+// has to make the smallest angle of the faces it touches larger, by 0.01 percent at least, and leave them
+// upright, exactly. Of proposals that touch a common face that with the smaller key is done: the smallest
+// angle that is touched, then the users' numbers of what it moves or flips. Greedily in the order of keys;
+// the same come out if again and again each goes ahead whose key is smallest among those it shares faces with
+// [Blelloch 2012], as several machines with a part of the mesh each can find out. Ends when no proposal is
+// left.
 //
-// The mesh's smallest angle never gets smaller, a valid mesh stays valid, and one without bad faces bit for bit what it
-// was. Labels, constrained edges and padding stay; vertices move as VertexFreedom says. The bits of the result depend
-// neither on the number of threads nor on how the mesh is stored, and not on its scale if that changes by a power of
-// two. Padding faces have no angle here.
+// The mesh's smallest angle never gets smaller, a valid mesh stays valid, and one without bad faces bit for
+// bit what it was. Labels and constrained edges stay; vertices move as VertexFreedom says. The bits of the
+// result depend neither on the number of threads nor on how the mesh is stored, and not on its scale if that
+// changes by a power of two. Padding faces have no angle here.
 //
-// Takes 14 bytes a face and 5 a vertex when made. Cost of a run: of the minima that are outdated, of 64 faces for each
-// bad one at most, and some 10 microseconds for each move that is thought of.
+// Takes 5 bytes a face and 5 a vertex when made. Cost of a run: of the minima that are outdated, of 64 faces
+// for each bad one at most, and some 10 microseconds for each move that is thought of.
 class AngleUpkeep : public QualityPass {
  public:
   // For meshes of this one's size. Throws InputError for options out of range or `held` of another size.
@@ -127,8 +128,8 @@ struct AngleOutcome {
   double min_angle_before_deg = 0.0, min_angle_after_deg = 0.0;  // as measure has them
 };
 
-// The same for a mesh of one's own. Throws InputError for options out of range, and if the mesh has an inverted or
-// flat face, which `smooth` and the strategies are for; nothing has changed then.
+// The same for a mesh of one's own. Throws InputError for options out of range, and if the mesh has an
+// inverted or flat face, which `smooth` and the strategies are for; nothing has changed then.
 AngleOutcome improve_angles(Mesh& mesh, const AngleOptions& options = {}, const VertexFreedom& freedom = {});
 
 }  // namespace kinemesh

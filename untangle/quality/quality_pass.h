@@ -16,11 +16,12 @@ namespace kinemesh {
 
 // What has changed since the last call, or the start.
 struct QualityInputs {
-  // The positions of all vertices at that time, or nothing if this is the first call and anything may be as it likes.
+  // The positions of all vertices at that time, or nothing if this is the first call and anything may be as
+  // it likes.
   std::span<const Point> before{};
   std::span<const RegionRecord> replaced{};
-  // Of the mesh as it is, all that is outdated marked so, or null. What is outdated may be measured; what the pass
-  // changes is not marked: flipped_faces() and the faces around moved_vertices().
+  // Of the mesh as it is, all that is outdated marked so, or null. What is outdated may be measured; what the
+  // pass changes is not marked: flipped_faces() and the faces around moved_vertices().
   FaceMinima* minima = nullptr;
 };
 
@@ -38,9 +39,9 @@ class QualityPass {
  public:
   virtual ~QualityPass() = default;
 
-  // Pre: the mesh is valid; it stays so, its labels and constrained edges with it. This does not throw, and there is
-  // nothing in it that could fail: memory is taken when the pass is made, or the pass ends early without it.
-  // Deterministic, whatever the number of threads.
+  // Pre: the mesh is valid; it stays so, its labels and constrained edges with it. This does not throw, and
+  // there is nothing in it that could fail: memory is taken when the pass is made, or the pass ends early
+  // without it. Deterministic, whatever the number of threads.
   virtual QualityCounts improve(Mesh& mesh, const QualityInputs& inputs) = 0;
 
   // True if improve() may write positions.
@@ -66,7 +67,8 @@ struct QualityInfo {
       make;  // for meshes of this one's size
 };
 
-// none, delaunay, smooth and angles. An unknown name is an InputError, and so are options that the pass refuses.
+// none, delaunay, smooth and angles. An unknown name is an InputError, and so are options that the pass
+// refuses.
 std::span<const QualityInfo> qualities();
 std::unique_ptr<QualityPass> make_quality(std::string_view name, const Mesh& mesh,
                                           const QualityOptions& options = {});

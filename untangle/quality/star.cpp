@@ -27,8 +27,8 @@ Point along(const Point& x, const Point& direction, double distance) {
           direction.y == 0.0 ? x.y : x.y + distance * direction.y};
 }
 
-// Where f, which has no maxima but one, is largest between low and high: by golden sections around `best`, where it
-// is larger than at both of them.
+// Where f, which has no maxima but one, is largest between low and high: by golden sections around `best`,
+// where it is larger than at both of them.
 template <class F>
 double maximum(const F& f, double low, double best, double high) {
   double value = f(best);

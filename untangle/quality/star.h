@@ -9,26 +9,27 @@
 
 namespace kinemesh {
 
-// Of an upright triangle's smallest angle, as tangent_of_smallest_angle (core/measure.h) but for rounding: the same
-// bits, whichever of its corners comes first.
+// Of an upright triangle's smallest angle, as tangent_of_smallest_angle (core/measure.h) but for rounding:
+// the same bits, whichever of its corners comes first.
 double tangent_from_any_corner(const std::array<Point, 3>& corners);
 
-// Does not depend on how the mesh is stored, neither on the order of faces, vertices and corners nor on where the fan
-// begins. Takes memory for vertices of very many faces only.
+// Does not depend on how the mesh is stored, neither on the order of faces, vertices and corners nor on where
+// the fan begins. Takes memory for vertices of very many faces only.
 class Star {
  public:
   Star(const Mesh& mesh, int vertex);
 
-  // The tangent of the smallest angle of the domain's faces, were the vertex at x: 0 if one is not upright, as far as
-  // rounding tells; infinity if there are none. Rounded.
+  // The tangent of the smallest angle of the domain's faces, were the vertex at x: 0 if one is not upright,
+  // as far as rounding tells; infinity if there are none. Rounded.
   double tangent_at(const Point& x) const;
 
   // Padding, too. Exact.
   bool is_upright_at(const Point& x) const;
 
-  // Where tangent_at is largest, up to rounding and stopping short of negligible gains: of all places, or of those
-  // along the direction and strictly between the other ends of the two constrained edges here. Nothing if there is
-  // no such range, or if x would leave a slanted line that is the convex border of the whole mesh. Pre: a valid mesh.
+  // Where tangent_at is largest, up to rounding and stopping short of negligible gains: of all places, or of
+  // those along the direction and strictly between the other ends of the two constrained edges here. Nothing
+  // if there is no such range, or if x would leave a slanted line that is the convex border of the whole
+  // mesh. Pre: a valid mesh.
   Point best_place() const;
   std::optional<Point> best_place_along(const Point& direction) const;
 
