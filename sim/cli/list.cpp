@@ -57,6 +57,8 @@ const char* spelling(ParameterKind kind) {
       return "[[x, y], ...]";
     case ParameterKind::Seed:
       return "integer >= 0";
+    case ParameterKind::OptionalFile:
+      return "file, or none";
     case ParameterKind::Text:
       return "text";
     case ParameterKind::File:
