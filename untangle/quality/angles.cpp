@@ -169,7 +169,10 @@ void AngleUpkeep::propose(const Mesh& mesh) {
 // For those without a proposal.
 void AngleUpkeep::propose_around(const Mesh& mesh) {
   for (std::size_t i = 0; i < bad_.size(); ++i)
-    if (proposals_[i].is_none()) for_each_vertex_near(mesh, bad_[i], [&](int v) { ask_for_place(mesh, v); });
+    if (proposals_[i].is_none())
+      for_each_neighbour(mesh, bad_[i], [&](int neighbour) {
+        for (const int v : mesh.triangles()[neighbour]) ask_for_place(mesh, v);
+      });
   find_places(mesh);
   for (std::size_t i = 0; i < bad_.size(); ++i)
     if (proposals_[i].is_none()) proposals_[i] = best_around(mesh, bad_[i]);
@@ -235,33 +238,36 @@ AngleUpkeep::Proposal AngleUpkeep::move_of(const Mesh& mesh, int vertex) const {
 AngleUpkeep::Proposal AngleUpkeep::best_at(const Mesh& mesh, int face) const {
   Proposal best;
   for (const int v : mesh.triangles()[face]) best = better(best, move_of(mesh, v));
-  for (const int h : mesh.sides(face)) {
-    const int edge = Mesh::edge_of(h);
-    if (!mesh.is_flippable(edge)) continue;
-    const auto [before, after] = tangents_of_flip(mesh, edge);
-    if (!is_better(after, before)) continue;
-    const auto [low, high] = std::minmax({mesh.user_vertex(mesh.from(h)), mesh.user_vertex(mesh.to(h))});
-    best = better(best, {.before = before, .after = after, .users = {low, high}, .edge = edge});
-  }
+  for (const int h : mesh.sides(face)) best = better(best, flip_of(mesh, h));
   return best;
+}
+
+AngleUpkeep::Proposal AngleUpkeep::flip_of(const Mesh& mesh, int h) const {
+  const int edge = Mesh::edge_of(h);
+  if (!mesh.is_flippable(edge)) return {};
+  const auto [before, after] = tangents_of_flip(mesh, edge);
+  if (!is_better(after, before)) return {};
+  const auto [low, high] = std::minmax({mesh.user_vertex(mesh.from(h)), mesh.user_vertex(mesh.to(h))});
+  return {.before = before, .after = after, .users = {low, high}, .edge = edge};
 }
 
 AngleUpkeep::Proposal AngleUpkeep::best_around(const Mesh& mesh, int face) const {
   Proposal best;
-  for_each_vertex_near(mesh, face, [&](int v) { best = better(best, move_of(mesh, v)); });
+  for_each_neighbour(mesh, face, [&](int neighbour) {
+    for (const int v : mesh.triangles()[neighbour]) best = better(best, move_of(mesh, v));
+    for (const int h : mesh.sides(neighbour)) best = better(best, flip_of(mesh, h));
+  });
   return best;
 }
 
-// Corners of neighbours that are nearly bad.
+// Those that are nearly bad; one may come twice.
 template <class Visit>
-void AngleUpkeep::for_each_vertex_near(const Mesh& mesh, int face, const Visit& visit) const {
-  for (const int corner : mesh.triangles()[face]) {
+void AngleUpkeep::for_each_neighbour(const Mesh& mesh, int face, const Visit& visit) const {
+  for (const int corner : mesh.triangles()[face])
     for_each_around(mesh, corner, [&](int neighbour) {
-      if (mesh.is_padding(neighbour) || tangent_from_any_corner(mesh.corners(neighbour)) >= nearly_wanted_)
-        return;
-      for (const int v : mesh.triangles()[neighbour]) visit(v);
+      if (!mesh.is_padding(neighbour) && tangent_from_any_corner(mesh.corners(neighbour)) < nearly_wanted_)
+        visit(neighbour);
     });
-  }
 }
 
 void AngleUpkeep::choose(const Mesh& mesh) {

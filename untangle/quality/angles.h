@@ -14,7 +14,7 @@ namespace kinemesh {
 
 struct AngleOptions {
   double angle = 25.0;  // degrees, above 0 and below 60: faces of the domain with a smaller one are bad
-  int max_rounds = 20;  // 0 or more
+  int max_rounds = 300; // 0 or more
 };
 
 struct AngleCounts {
@@ -91,9 +91,10 @@ class AngleUpkeep : public QualityPass {
   void find_place(const Mesh& mesh, Place& place) const;
   Proposal best_at(const Mesh& mesh, int face) const;
   Proposal best_around(const Mesh& mesh, int face) const;
+  Proposal flip_of(const Mesh& mesh, int halfedge) const;
   Proposal move_of(const Mesh& mesh, int vertex) const;
   template <class Visit>
-  void for_each_vertex_near(const Mesh& mesh, int face, const Visit& visit) const;
+  void for_each_neighbour(const Mesh& mesh, int face, const Visit& visit) const;
   void choose(const Mesh& mesh);
   bool take(const Mesh& mesh, const Proposal& proposal);
   void carry_out(Mesh& mesh, AngleCounts& counts);
