@@ -123,6 +123,16 @@ class Scenarios(unittest.TestCase):
                 result = run("run", scenario, "-o", Path(folder) / "out", "--dry-run")
                 self.assertEqual(result.returncode, 0, result.stderr + text)
 
+    def test_gallery_shows_the_scenarios_there_are(self):
+        files = sorted((ROOT / "examples/gallery").glob("*.toml"))
+        self.assertGreater(len(files), 1)
+        page = read(ROOT / "docs/gallery.md")
+        self.assertEqual(sorted(set(re.findall(r"examples/gallery/([\w-]+\.toml)", page))), [f.name for f in files])
+        for scenario in files:
+            with tempfile.TemporaryDirectory() as folder:
+                result = run("run", scenario, "-o", Path(folder) / "out", "--dry-run")
+                self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_everything_the_program_lists_is_documented(self):
         listed = run("list")
         self.assertEqual(listed.returncode, 0, listed.stderr)
