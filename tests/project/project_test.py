@@ -95,12 +95,12 @@ class Readme(unittest.TestCase):
 class Embedding(unittest.TestCase):
     """Each block of docs/embedding.md is a piece of a program that is built and run, apart from its indentation."""
 
-    PROGRAMS = {"cpp": "examples/solver_loop.cpp", "c": "tests/consumer/project/consumer.c",
-                "cmake": "tests/consumer/project/CMakeLists.txt"}
+    PROGRAMS = {"cpp": ("examples/solver_loop.cpp", "examples/fluid_structure.cpp"),
+                "c": ("tests/consumer/project/consumer.c",), "cmake": ("tests/consumer/project/CMakeLists.txt",)}
 
     def test_blocks_are_pieces_of_programs(self):
-        for language, program in self.PROGRAMS.items():
-            lines = [line.strip() for line in read(ROOT / program).splitlines()]
+        for language, programs in self.PROGRAMS.items():
+            lines = [line.strip() for program in programs for line in read(ROOT / program).splitlines()]
             shown = blocks("docs/embedding.md", language)
             self.assertGreater(len(shown), 0, language)
             for block in shown:
@@ -109,7 +109,7 @@ class Embedding(unittest.TestCase):
                     self.assertLessEqual(set(wanted), set(lines), block)
                 else:
                     starts = range(len(lines) - len(wanted) + 1)
-                    self.assertTrue(any(lines[i:i + len(wanted)] == wanted for i in starts), f"{program}:\n{block}")
+                    self.assertTrue(any(lines[i:i + len(wanted)] == wanted for i in starts), f"{programs}:\n{block}")
 
 
 class Scenarios(unittest.TestCase):
@@ -122,6 +122,16 @@ class Scenarios(unittest.TestCase):
                 scenario.write_text(text, encoding="utf-8")
                 result = run("run", scenario, "-o", Path(folder) / "out", "--dry-run")
                 self.assertEqual(result.returncode, 0, result.stderr + text)
+
+    def test_gallery_shows_the_scenarios_there_are(self):
+        files = sorted((ROOT / "examples/gallery").glob("*.toml"))
+        self.assertGreater(len(files), 1)
+        page = read(ROOT / "docs/gallery.md")
+        self.assertEqual(sorted(set(re.findall(r"examples/gallery/([\w-]+\.toml)", page))), [f.name for f in files])
+        for scenario in files:
+            with tempfile.TemporaryDirectory() as folder:
+                result = run("run", scenario, "-o", Path(folder) / "out", "--dry-run")
+                self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_everything_the_program_lists_is_documented(self):
         listed = run("list")
