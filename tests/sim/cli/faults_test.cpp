@@ -83,8 +83,12 @@ class Faults : public ProgramTest {
       if (line.starts_with("step") || std::stoul(line) < rows) upto += line + "\n";
     // A run that could not be gone on with has its regions as they were found, behind its checkpoint, too.
     const bool has_not_begun = rows == rows_found_;
+    // A new one that could not write its headers has neither steps nor regions.
+    const bool has_headers_only = rows == 1 && rows_found_ == 0;
     if (has_not_begun)
       EXPECT_TRUE(left.at("regions.csv").starts_with(upto));
+    else if (has_headers_only)
+      EXPECT_TRUE(upto.starts_with(left.at("regions.csv")));
     else
       EXPECT_EQ(left.at("regions.csv"), upto);
   }
