@@ -28,8 +28,8 @@ typedef enum kinemesh_status {
   KINEMESH_NO_VALID_MESH = 1, /* the domain has none with these positions: borders cross, vertices coincide */
   KINEMESH_BAD_INPUT = 2,     /* the caller's mistake, or a file's */
   KINEMESH_OUT_OF_MEMORY = 3,
-  KINEMESH_VETOED = 4, /* an observer returned something else than 0 */
-  KINEMESH_BUG = 5,    /* a mistake of kinemesh; please report it with its message */
+  KINEMESH_VETOED = 4,      /* an observer returned something else than 0 */
+  KINEMESH_BUG = 5,         /* a mistake of kinemesh; please report it with its message */
   KINEMESH_NO_RESOURCES = 6 /* a full disk, a limit of files or of their size, a device that fails */
 } kinemesh_status;
 
@@ -78,7 +78,8 @@ typedef struct kinemesh_stepper kinemesh_stepper;
 
 typedef struct kinemesh_options {
   const char* strategy; /* how a tangled mesh is repaired; NULL: "global" */
-  const char* quality;  /* what is done for the shape of the faces after it: "none", "delaunay", "smooth", "angles" */
+  const char*
+      quality;  /* what is done for the shape of the faces after it: "none", "delaunay", "smooth", "angles" */
   double frame; /* margin of padding around the domain, in diagonals of its bounding box; 0: its convex hull
                    must not move */
   int32_t allow_escaped; /* not 0: vertices may end on the wrong side of a border or interface */

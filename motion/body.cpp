@@ -38,7 +38,8 @@ std::vector<int> vertices_of(const Mesh& mesh, const std::vector<std::string>& o
 std::vector<std::string> markers_of(const std::vector<std::string>& on) {
   std::vector<std::string> markers;
   for (const std::string& part : on)
-    if (const auto restriction = parse_restriction(part); const auto* marker = std::get_if<OnMarker>(&restriction.on))
+    if (const auto restriction = parse_restriction(part);
+        const auto* marker = std::get_if<OnMarker>(&restriction.on))
       markers.push_back(marker->name);
   return markers;
 }
@@ -60,8 +61,8 @@ Body::Body(const Mesh& initial, const BodySpec& spec) : name_(joined(spec.on)) {
     if (const auto own = path->center()) {
       if (center && *center != *own)
         refuse(name_, "motion",
-               fmt::format("turns about two centres, ({}, {}) and ({}, {}); one expected", center->x, center->y,
-                           own->x, own->y));
+               fmt::format("turns about two centres, ({}, {}) and ({}, {}); one expected", center->x,
+                           center->y, own->x, own->y));
       center = own;
     }
     paths_.push_back(std::move(path));
@@ -127,7 +128,8 @@ void Body::move(std::span<const Point> initial, std::span<const Point> x0, doubl
   const Placement before = placement(t0), after = placement(t1);
   for (const int v : vertices_) {
     x1[v] = place(after, initial[v], t1);
-    if (!is_exact()) x1[v] = x0[v] + (x1[v] - place(before, initial[v], t0)) + integrated(x0[v], t0, dt, integrator);
+    if (!is_exact())
+      x1[v] = x0[v] + (x1[v] - place(before, initial[v], t0)) + integrated(x0[v], t0, dt, integrator);
   }
 }
 

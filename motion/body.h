@@ -14,7 +14,7 @@
 namespace kinemesh {
 
 struct BodySpec {
-  std::vector<std::string> on;   // "marker:NAME", "label:N" (a solid part with all its vertices); one at least
+  std::vector<std::string> on;  // "marker:NAME", "label:N" (a solid part with all its vertices); one at least
   std::vector<AnyField> motion;  // no noise; empty: it stays where it is
 };
 
@@ -29,9 +29,9 @@ class Body {
   // no part at all, "motion" for noise, two centres, or a record that does not hold the body's vertices.
   Body(const Mesh& initial, const BodySpec& spec);
 
-  const std::string& name() const { return name_; }                    // its parts, as in `on`
-  std::span<const std::string> markers() const { return markers_; }    // that it names
-  std::span<const int> vertices() const { return vertices_; }          // the mesh's numbers, ascending
+  const std::string& name() const { return name_; }                  // its parts, as in `on`
+  std::span<const std::string> markers() const { return markers_; }  // that it names
+  std::span<const int> vertices() const { return vertices_; }        // the mesh's numbers, ascending
   bool is_exact() const { return velocities_.empty(); }
 
   // Where its vertices go in a step from t0 to t1, dt long: x1 of each is written, x0 read where it is not exact.

@@ -2,9 +2,9 @@
 
 #include <numbers>
 
-#include "motion/oscillation.h"
 #include "motion/expression.h"
 #include "motion/noise.h"
+#include "motion/oscillation.h"
 #include "motion/plugin_field.h"
 #include "motion/prescribed_path.h"
 #include "motion/recorded.h"

@@ -10,7 +10,6 @@ namespace {
 
 constexpr int grain = 8192;  // vertices that are worth a task
 
-
 // Vertices of a line from one that is held to the next, both included; positions in line.vertices(). Over the end of
 // a closed line it goes on with the first ones.
 struct Stretch {
@@ -25,12 +24,14 @@ std::vector<Stretch> stretches_of(const SlideLine& line, std::span<const Role> r
     if (roles[vertices[i]] != Role::Slide || (!line.is_closed() && (i == 0 || i + 1 == n))) held.push_back(i);
   std::vector<Stretch> stretches;
   for (std::size_t k = 0; k + 1 < held.size(); ++k) stretches.push_back({held[k], held[k + 1] - held[k] + 1});
-  if (line.is_closed() && !held.empty()) stretches.push_back({held.back(), n - held.back() + held.front() + 1});
+  if (line.is_closed() && !held.empty())
+    stretches.push_back({held.back(), n - held.back() + held.front() + 1});
   return stretches;
 }
 
 // Whether vertices have kept their order, and if not, spreads those within the stretch as they were.
-void keep_order(const SlideLine& line, const Stretch& stretch, std::span<const Point> x0, std::span<Point> x1) {
+void keep_order(const SlideLine& line, const Stretch& stretch, std::span<const Point> x0,
+                std::span<Point> x1) {
   const auto vertices = line.vertices();
   std::vector<double> before, after;
   const auto unrolled = [&](std::vector<double>& all, double parameter) {
@@ -82,7 +83,8 @@ InteriorSolution Following::follow(const Mesh& mesh, const Motion& motion, const
   return solution;
 }
 
-InteriorSolution Following::follow(const Mesh& mesh, std::span<const Role> roles, double dt, std::span<Point> x1) {
+InteriorSolution Following::follow(const Mesh& mesh, std::span<const Role> roles, double dt,
+                                   std::span<Point> x1) {
   tangents_.clear();
   const InteriorSolution solution = solve(mesh, roles, {}, dt, x1);
   for (int v = 0; v < mesh.n_vertices(); ++v)

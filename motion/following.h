@@ -38,8 +38,8 @@ class Following {
   const FollowingState& state() const { return state_; }
 
  private:
-  InteriorSolution solve(const Mesh& mesh, std::span<const Role> roles, std::span<const Point> ways, double dt,
-                         std::span<const Point> x1);
+  InteriorSolution solve(const Mesh& mesh, std::span<const Role> roles, std::span<const Point> ways,
+                         double dt, std::span<const Point> x1);
 
   Interior interior_;
   FollowingState state_, next_;

@@ -49,7 +49,8 @@ BorderConditions completed(const Mesh& mesh, BorderConditions border, const std:
                            const std::vector<BodySpec>& bodies) {
   const auto& names = mesh.marker_names();
   const auto add = [&](const std::string& name) {
-    if (std::ranges::find(names, name) != names.end()) border.by_marker.emplace(name, BorderCondition::Moving);
+    if (std::ranges::find(names, name) != names.end())
+      border.by_marker.emplace(name, BorderCondition::Moving);
   };
   for (const MotionTerm& term : terms) std::ranges::for_each(markers_of(term), add);
   for (const BodySpec& body : bodies)
@@ -117,8 +118,8 @@ constexpr double same_within = 1e-9;  // of the mesh's diagonal
 
 }  // namespace
 
-Motion::Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions border, Integrator integrator,
-               const std::vector<BodySpec>& bodies, InteriorOptions interior)
+Motion::Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions border,
+               Integrator integrator, const std::vector<BodySpec>& bodies, InteriorOptions interior)
     : freedom_(mesh, completed(mesh, std::move(border), terms, bodies)),
       integrator_(integrator),
       initial_(mesh.positions().begin(), mesh.positions().end()),
@@ -154,9 +155,9 @@ void Motion::own_vertices(const Mesh& mesh) {
         shared_.push_back({v, b});
     }
     if (n_fixed > 0)
-      notes_.push_back(fmt::format("body {}: {} of its {} vertices {} on a fixed border and {}", bodies_[b].name(),
-                                   n_fixed, bodies_[b].vertices().size(), n_fixed == 1 ? "is" : "are",
-                                   n_fixed == 1 ? "stays" : "stay"));
+      notes_.push_back(fmt::format("body {}: {} of its {} vertices {} on a fixed border and {}",
+                                   bodies_[b].name(), n_fixed, bodies_[b].vertices().size(),
+                                   n_fixed == 1 ? "is" : "are", n_fixed == 1 ? "stays" : "stay"));
   }
 }
 
@@ -192,7 +193,9 @@ void Motion::give_roles(const Mesh& mesh, const std::vector<MotionTerm>& terms) 
   }
   for (const MotionTerm& term : terms)
     for (const std::string& marker : markers_of(term))
-      for_each_end(mesh, marker, [&](int v) { if (roles_[v] == Role::Free) roles_[v] = Role::Known; });
+      for_each_end(mesh, marker, [&](int v) {
+        if (roles_[v] == Role::Free) roles_[v] = Role::Known;
+      });
 }
 
 // Where a term has no say its weight is 0.
@@ -262,15 +265,17 @@ void Motion::move_bodies(std::span<const Point> x0, const TimeStep& step, std::s
     }
     for (const auto& [v, other] : shared_)
       if (other == b && glm::distance(place[v], x1[v]) > same_within * diagonal_)
-        throw InputError(fmt::format("bodies {} and {} share {} and move it to ({}, {}) and ({}, {}), at time {}",
-                                     bodies_[owner_[v]].name(), bodies_[b].name(), name(v), x1[v].x, x1[v].y,
-                                     place[v].x, place[v].y, step.t1));
+        throw InputError(
+            fmt::format("bodies {} and {} share {} and move it to ({}, {}) and ({}, {}), at time {}",
+                        bodies_[owner_[v]].name(), bodies_[b].name(), name(v), x1[v].x, x1[v].y, place[v].x,
+                        place[v].y, step.t1));
   }
 }
 
 bool Motion::ways_inside(std::span<const Point> x0, const TimeStep& step, std::span<Point> ways) const {
   const auto is_inside = [](const auto& term) { return term.is_inside; };
-  if (std::ranges::none_of(velocities_, is_inside) && std::ranges::none_of(displacements_, is_inside)) return false;
+  if (std::ranges::none_of(velocities_, is_inside) && std::ranges::none_of(displacements_, is_inside))
+    return false;
   parallel_parts(static_cast<int>(x0.size()), grain, [&](int, int begin, int end) {
     for (int v = begin; v < end; ++v) ways[v] = way_inside(v, x0[v], step.t0, step.dt);
   });
@@ -281,11 +286,13 @@ Point Motion::way_inside(int vertex, const Point& x0, double t, double dt) const
   Point way(0.0, 0.0);
   for (const auto& term : displacements_)
     if (const double w = term.raw_weight(vertex); term.is_inside && w != 0.0)
-      way += w * (term.field->displacement(initial_[vertex], t + dt) - term.field->displacement(initial_[vertex], t));
+      way += w * (term.field->displacement(initial_[vertex], t + dt) -
+                  term.field->displacement(initial_[vertex], t));
   const auto velocity = [&](const Point& x, double s) {
     Point sum(0.0, 0.0);
     for (const auto& term : velocities_)
-      if (const double w = term.raw_weight(vertex); term.is_inside && w != 0.0) sum += w * term.field->velocity(x, s);
+      if (const double w = term.raw_weight(vertex); term.is_inside && w != 0.0)
+        sum += w * term.field->velocity(x, s);
     return sum;
   };
   way += integrate(integrator_, velocity, x0, t, dt);

@@ -54,7 +54,8 @@ class Motion {
   //
   // Without what the interior does to follow the border: motion/following.h.
   void advance(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const;
-  void advance(std::span<const Point> x0, double t, double dt, std::uint64_t step, std::span<Point> x1) const {
+  void advance(std::span<const Point> x0, double t, double dt, std::uint64_t step,
+               std::span<Point> x1) const {
     advance(x0, {t, t + dt, dt, step}, x1);
   }
 
@@ -73,7 +74,9 @@ class Motion {
   double spacing() const { return spacing_; }
   std::span<const Point> initial_positions() const { return initial_; }
   std::span<const Body> bodies() const { return bodies_; }
-  int body_of(int vertex) const { return owner_.empty() ? none : owner_[vertex]; }  // number of its body, or none
+  int body_of(int vertex) const {
+    return owner_.empty() ? none : owner_[vertex];
+  }                                                                 // number of its body, or none
   const std::vector<std::string>& notes() const { return notes_; }  // what a user may not expect
 
  private:
@@ -116,12 +119,12 @@ class Motion {
   std::vector<Edge> constrained_;  // ends never change, whatever is repaired
   double spacing_, diagonal_;
   std::vector<Body> bodies_;
-  std::vector<int> owner_;               // per vertex: its body, or none; empty without bodies
+  std::vector<int> owner_;                   // per vertex: its body, or none; empty without bodies
   std::vector<std::pair<int, int>> shared_;  // a vertex, and a body that has it, too, after its owner
-  std::vector<int> claim_;               // per vertex of the border: number in claimed_, or none; empty without
-  std::vector<std::string> claimed_;     // markers that terms name
+  std::vector<int> claim_;            // per vertex of the border: number in claimed_, or none; empty without
+  std::vector<std::string> claimed_;  // markers that terms name
   InteriorOptions interior_;
-  std::vector<Role> roles_;         // empty where nothing follows
+  std::vector<Role> roles_;  // empty where nothing follows
   std::vector<std::string> notes_;
 };
 

@@ -46,7 +46,8 @@ TablePath::TablePath(const Point& center, const std::string& file) : PrescribedP
     row.time = in.number("a time");
     for (double* value : {&row.x, &row.y, &row.angle}) *value = in.number_here("one of x,y,angle");
     in.expect_line_end("four columns");
-    if (!rows_.empty() && row.time <= rows_.back().time) in.fail("a later time than in the row before expected");
+    if (!rows_.empty() && row.time <= rows_.back().time)
+      in.fail("a later time than in the row before expected");
     rows_.push_back(row);
   }
   if (rows_.empty()) in.fail("the file ends, at least one row t,x,y,angle expected");
@@ -75,7 +76,8 @@ AnyField prescribed_path(const CheckedParameters& parameters) {
                                          parameters.text("angle"));
   for (const char* formula : {"x", "y", "angle"})
     if (parameters.text(formula) != "0")
-      throw ParameterError(formula, std::string("field \"rigid\": ") + formula + " and file: one of them expected");
+      throw ParameterError(formula,
+                           std::string("field \"rigid\": ") + formula + " and file: one of them expected");
   return std::make_shared<TablePath>(center, file);
 }
 

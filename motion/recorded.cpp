@@ -153,7 +153,8 @@ void RecordedPositions::require_initial(std::span<const Point> positions) const 
 void RecordedPositions::require_all(std::span<const Point> positions) const {
   for (const Point& p : positions)
     if (!vertex_at_.contains(p))
-      throw InputError(file_, 0, fmt::format("no vertex begins at ({}, {}), where the body has one", p.x, p.y));
+      throw InputError(file_, 0,
+                       fmt::format("no vertex begins at ({}, {}), where the body has one", p.x, p.y));
 }
 
 bool RecordedPositions::covers(double from, double to) const {

@@ -24,7 +24,7 @@ enum class ParameterKind {
   Points,             // [[x, y], ...], finite, at least one
   Seed,               // integer >= 0
   Text,
-  File,  // a text; relative to the scenario's folder, absolute for the field
+  File,          // a text; relative to the scenario's folder, absolute for the field
   OptionalFile,  // likewise, or empty
 };
 
@@ -62,7 +62,7 @@ class CheckedParameters {
   const std::vector<double>& numbers(std::string_view name) const;
   const std::vector<Point>& points(std::string_view name) const;
   std::uint64_t seed(std::string_view name) const;
-  const std::string& text(std::string_view name) const;  // Text and File
+  const std::string& text(std::string_view name) const;      // Text and File
   const FieldParameters& others() const { return others_; }  // those not listed, as given
 
  private:

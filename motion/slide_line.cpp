@@ -77,7 +77,8 @@ std::vector<int> SlideLine::corners() const {
   const std::size_t n = vertices_.size();
   const auto direction = [&](std::size_t i) { return glm::normalize(points_[i + 1] - points_[i]); };
   for (std::size_t i = is_closed_ ? 0 : 1; i < (is_closed_ ? n : n - 1); ++i)
-    if (glm::dot(direction(i == 0 ? n - 1 : i - 1), direction(i)) < corner_cosine) corners.push_back(vertices_[i]);
+    if (glm::dot(direction(i == 0 ? n - 1 : i - 1), direction(i)) < corner_cosine)
+      corners.push_back(vertices_[i]);
   return corners;
 }
 
@@ -138,8 +139,10 @@ std::vector<SlideLine> slide_lines(const Mesh& mesh, const std::vector<Edge>& ed
   const Neighbours all = neighbours;
   std::vector<SlideLine> lines;
   for (const auto& [v, others] : all)  // open ones from their ends
-    if (others.size() == 1 && neighbours.contains(v)) lines.emplace_back(mesh, take_chain(v, neighbours), false);
-  while (!neighbours.empty()) lines.emplace_back(mesh, take_chain(neighbours.begin()->first, neighbours), true);
+    if (others.size() == 1 && neighbours.contains(v))
+      lines.emplace_back(mesh, take_chain(v, neighbours), false);
+  while (!neighbours.empty())
+    lines.emplace_back(mesh, take_chain(neighbours.begin()->first, neighbours), true);
   return lines;
 }
 

@@ -31,7 +31,7 @@ class SlideLine {
 
   double parameter_near(const Point& x) const;  // of the point of the line that is nearest to x
   Point at(double parameter) const;
-  Point tangent_near(const Point& x) const;     // unit vector
+  Point tangent_near(const Point& x) const;  // unit vector
 
   // Where something on the line that has moved from x0 to x1 is: as far along it from x0 as the way goes along the
   // tangent. Horizontal and vertical straight lines give x1, bit by bit.

@@ -17,7 +17,8 @@ using binary::Is;
 template <class Archive, class S>
 requires Is<S, PhaseTimes>
 void members(Archive& archive, S& ms) {
-  archive(ms.move, ms.interior, ms.detect, ms.explore, ms.triangulate, ms.splice, ms.quality, ms.total, ms.write);
+  archive(ms.move, ms.interior, ms.detect, ms.explore, ms.triangulate, ms.splice, ms.quality, ms.total,
+          ms.write);
 }
 
 template <class Archive, class S>
@@ -62,7 +63,8 @@ template <class Archive, class S>
 requires Is<S, Checkpoint>
 void members(Archive& archive, S& checkpoint) {
   archive(checkpoint.program, checkpoint.scenario, checkpoint.origin, checkpoint.mesh, checkpoint.time,
-          checkpoint.step, checkpoint.adaptive, checkpoint.following, checkpoint.totals, checkpoint.series, checkpoint.logs);
+          checkpoint.step, checkpoint.adaptive, checkpoint.following, checkpoint.totals, checkpoint.series,
+          checkpoint.logs);
 }
 
 namespace {

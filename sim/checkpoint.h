@@ -23,9 +23,9 @@ struct Checkpoint {
   MeshState mesh;
   double time = 0.0;
   int step = 0;
-  AdaptiveState adaptive;  // after that step
+  AdaptiveState adaptive;    // after that step
   FollowingState following;  // the interior's, likewise
-  RunSummary totals;       // without plan, reason to stop and files
+  RunSummary totals;         // without plan, reason to stop and files
   SeriesState series;
   LogLengths logs;
 };

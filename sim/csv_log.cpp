@@ -29,8 +29,8 @@ std::string steps_csv_row(const StepRecord& s) {
                   r.replaced, r.crease_edges(), r.retries(), r.escaped, r.quality_flips);
   const auto times = fmt::format("{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}", s.move_ms, r.detect_ms,
                                  r.explore_ms, r.triangulate_ms, r.splice_ms, r.quality_ms, s.total_ms);
-  return fmt::format("{},{},{},{},{},{},{},{},{:.3f},{}", s.step, s.time, s.dt, ints, s.min_angle_deg, s.min_area,
-                     times, s.accepted ? 1 : 0, s.interior_ms, r.quality_moves);
+  return fmt::format("{},{},{},{},{},{},{},{},{:.3f},{}", s.step, s.time, s.dt, ints, s.min_angle_deg,
+                     s.min_area, times, s.accepted ? 1 : 0, s.interior_ms, r.quality_moves);
 }
 
 std::string regions_csv_row(int step, int number, const RegionRecord& r) {

@@ -364,9 +364,10 @@ std::string why_stopped(const StepOutcome& outcome) {
     const bool has_escaped = outcome.defect->kind == DefectKind::Escaped;
     return step + (is_stuck(*outcome.defect) ? " stays tangled: " : " has no valid mesh: ") +
            outcome.defect->message() +
-           (has_escaped ? "; shorter steps ([time] dt, adaptive), an interior that follows ([interior] follow) or "
-                          "[repair] quality = \"angles\" may help"
-                        : "");
+           (has_escaped
+                ? "; shorter steps ([time] dt, adaptive), an interior that follows ([interior] follow) or "
+                  "[repair] quality = \"angles\" may help"
+                : "");
   }
   return fmt::format("{} at time {} has regions of {:.4g} of all faces, max_region_share is {}", step,
                      outcome.record.time, outcome.too_large->share, outcome.too_large->limit);

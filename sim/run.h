@@ -40,7 +40,8 @@ struct RunPlan {
 
 // Milliseconds, summed over the steps.
 struct PhaseTimes {
-  double move = 0.0, interior = 0.0, detect = 0.0, explore = 0.0, triangulate = 0.0, splice = 0.0, quality = 0.0;
+  double move = 0.0, interior = 0.0, detect = 0.0, explore = 0.0, triangulate = 0.0, splice = 0.0,
+         quality = 0.0;
   double total = 0.0;  // of the steps
   double write = 0.0;  // logs and meshes, beside the steps
 };
@@ -54,10 +55,10 @@ struct RunSummary {
   long long inverted = 0;  // inverted and flat faces, summed over the accepted steps like the following
   long long regions = 0;
   long long region_faces = 0;
-  int region_faces_max = 0;  // the largest region
-  long long replaced = 0;    // faces rewritten
+  int region_faces_max = 0;     // the largest region
+  long long replaced = 0;       // faces rewritten
   long long quality_moves = 0;  // vertices that the quality pass moved
-  double share_mean = 0.0;   // of the faces, padding included, that a step rewrote: over all steps
+  double share_mean = 0.0;      // of the faces, padding included, that a step rewrote: over all steps
   double share_max = 0.0;
   int escaped_max = 0;  // vertices in any one step
   long long retries = 0;

@@ -37,19 +37,23 @@ Json mesh_json(const RunPlan& plan) {
 }
 
 Json totals_json(const RunSummary& s) {
-  return {{"rejected", s.rejected},         {"steps_tangled", s.steps_tangled},
-          {"inverted", s.inverted},         {"regions", s.regions},
-          {"region_faces", s.region_faces}, {"region_faces_max", s.region_faces_max},
-          {"replaced", s.replaced},         {"share_mean", s.share_mean},
-          {"share_max", s.share_max},       {"retries", s.retries},
-          {"quality_moves", s.quality_moves}};
+  return {
+      {"rejected", s.rejected}, {"steps_tangled", s.steps_tangled}, {"inverted", s.inverted},
+      {"regions", s.regions},   {"region_faces", s.region_faces},   {"region_faces_max", s.region_faces_max},
+      {"replaced", s.replaced}, {"share_mean", s.share_mean},       {"share_max", s.share_max},
+      {"retries", s.retries},   {"quality_moves", s.quality_moves}};
 }
 
 Json times_json(const PhaseTimes& ms) {
-  return {{"move", ms.move},       {"interior", ms.interior}, {"detect", ms.detect},
-          {"explore", ms.explore}, {"triangulate", ms.triangulate},
-          {"splice", ms.splice},   {"quality", ms.quality},
-          {"total", ms.total},     {"write", ms.write}};
+  return {{"move", ms.move},
+          {"interior", ms.interior},
+          {"detect", ms.detect},
+          {"explore", ms.explore},
+          {"triangulate", ms.triangulate},
+          {"splice", ms.splice},
+          {"quality", ms.quality},
+          {"total", ms.total},
+          {"write", ms.write}};
 }
 
 }  // namespace

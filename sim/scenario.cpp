@@ -202,7 +202,7 @@ InteriorSpec read_interior(TomlTable& table, bool has_bodies) {
   interior.where = table.where();
   const auto follow = table.text("follow").value_or(has_bodies ? "harmonic" : "none");
   require_one_of(table, "follow", follow, {"harmonic", "elastic", "none"});
-  interior.options.follow = follow == "harmonic" ? Follow::Harmonic
+  interior.options.follow = follow == "harmonic"  ? Follow::Harmonic
                             : follow == "elastic" ? Follow::Elastic
                                                   : Follow::None;
   if (const auto* stiffness = table.table("stiffness")) {
@@ -332,7 +332,8 @@ Scenario read_scenario(const toml::table& document, const std::filesystem::path&
   Scenario scenario;
   scenario.file = file;
   auto mesh = section(root, "mesh"), border = section(root, "border"), time = section(root, "time"),
-       repair = section(root, "repair"), output = section(root, "output"), interior = section(root, "interior");
+       repair = section(root, "repair"), output = section(root, "output"),
+       interior = section(root, "interior");
   root.known("motion");
   root.known("body");
   root.refuse_other_keys();

@@ -38,7 +38,7 @@ struct MeshSpec {
 struct MotionSpec {
   std::string field;
   FieldParameters parameters;
-  std::vector<std::string> on{"all"};  // of a body's: unused
+  std::vector<std::string> on{"all"};          // of a body's: unused
   std::optional<std::array<double, 2>> blend;  // lengths
   Where where;
   std::map<std::string, Where, std::less<>> key_where;

@@ -117,8 +117,9 @@ std::vector<BodySpec> bodies_of(const Scenario& scenario, const Mesh& mesh, Bord
       if (!names.contains(marker)) refuse_marker(mesh, marker, body.where_of("on"));
       const auto [condition, is_new] = border.by_marker.emplace(marker, BorderCondition::Moving);
       if (!is_new && condition->second != BorderCondition::Moving)
-        throw error_at(scenario.border.marker_where.at(marker),
-                       "the marker '" + marker + "' is of a body, which moves it; \"moving\" or nothing expected");
+        throw error_at(
+            scenario.border.marker_where.at(marker),
+            "the marker '" + marker + "' is of a body, which moves it; \"moving\" or nothing expected");
     }
     for (const MotionSpec& motion : body.motions) spec.motion.push_back(fields.of(motion));
   }
@@ -126,7 +127,8 @@ std::vector<BodySpec> bodies_of(const Scenario& scenario, const Mesh& mesh, Bord
 }
 
 // A body's record holds its vertices, and may hold others.
-void require_body_records(const Scenario& scenario, const Motion& motion, const std::vector<BodySpec>& bodies) {
+void require_body_records(const Scenario& scenario, const Motion& motion,
+                          const std::vector<BodySpec>& bodies) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<Point> places;
     for (const int v : motion.bodies()[b].vertices()) places.push_back(motion.initial_positions()[v]);
@@ -172,8 +174,9 @@ Where where_of(const Scenario& scenario, std::string_view key) {
 // line, where rounding takes it off the line. Along x or y it stays exactly.
 std::optional<int> leaving_hull_vertex(const Mesh& mesh, const Freedom& freedom) {
   for (int h = 0; h < 2 * mesh.n_edges(); ++h)
-    if (const int v = mesh.to(h); mesh.face_of(h) == none && (freedom.of(v) == BorderCondition::Moving ||
-                                                              freedom.allowed(v, mesh.position(v), {1.0, 0.0}).y != 0.0))
+    if (const int v = mesh.to(h);
+        mesh.face_of(h) == none && (freedom.of(v) == BorderCondition::Moving ||
+                                    freedom.allowed(v, mesh.position(v), {1.0, 0.0}).y != 0.0))
       return v;
   return std::nullopt;
 }

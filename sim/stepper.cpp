@@ -210,7 +210,8 @@ std::optional<RegionsTooLarge> Stepper::excess(const RepairRecord& record) const
 // What detection has measured holds but for what was changed since.
 void Stepper::outdate_repaired(const RepairRecord& record) {
   if (strategy_->moves_vertices()) return minima_.reset(mesh_.n_faces());
-  for (const RegionRecord& region : record.regions) minima_.outdate({region.faces.data(), region.faces.size()});
+  for (const RegionRecord& region : record.regions)
+    minima_.outdate({region.faces.data(), region.faces.size()});
 }
 
 void Stepper::outdate_improved() {
@@ -309,9 +310,11 @@ StepOutcome Stepper::step_by(const Motion& motion, double end_time, double dt) {
 std::optional<Defect> Stepper::move(const Motion& motion, const TimeStep& step, std::span<Point> next) {
   const std::span<const Point> now = mesh_.positions();
   motion.advance(now, step, next);
-  auto defect = non_finite_defect(mesh_, next, [&](int v) { return motion.describe_non_finite(v, now, step); });
+  auto defect =
+      non_finite_defect(mesh_, next, [&](int v) { return motion.describe_non_finite(v, now, step); });
   if (defect || motion.roles().empty()) return defect;
-  return follow(step.t1, next, [&] { return following(motion.interior()).follow(mesh_, motion, step, next); });
+  return follow(step.t1, next,
+                [&] { return following(motion.interior()).follow(mesh_, motion, step, next); });
 }
 
 // solve() puts the interior where it follows the border to; it may have to go too far for numbers to hold.
@@ -321,11 +324,13 @@ std::optional<Defect> Stepper::follow(double end_time, std::span<Point> next, co
   const InteriorSolution solution = solve();
   interior_ms_ = clock.milliseconds();
   if (!solution.converged)
-    throw InputError("the interior does not follow the border in step " + std::to_string(step_ + 1) + ", at time " +
-                     exact_text(end_time) + ": no solution after " + std::to_string(solution.iterations) +
-                     " iterations, relative residual " + exact_text(solution.residual));
+    throw InputError("the interior does not follow the border in step " + std::to_string(step_ + 1) +
+                     ", at time " + exact_text(end_time) + ": no solution after " +
+                     std::to_string(solution.iterations) + " iterations, relative residual " +
+                     exact_text(solution.residual));
   has_followed_ = true;
-  return non_finite_defect(mesh_, next, [&](int) { return "following the border to time " + exact_text(end_time); });
+  return non_finite_defect(mesh_, next,
+                           [&](int) { return "following the border to time " + exact_text(end_time); });
 }
 
 Following& Stepper::following(const InteriorOptions& options) {

@@ -51,7 +51,7 @@ struct StepRecord {
   double min_area = 0.0;
   double move_ms = 0.0, total_ms = 0.0;  // move: without the interior
   double interior_ms = 0.0;              // to let it follow the border
-  double measure_ms = 0.0;  // of the total, to find the angle and area above; not in steps.csv
+  double measure_ms = 0.0;               // of the total, to find the angle and area above; not in steps.csv
   bool accepted = false;
 };
 
@@ -98,7 +98,8 @@ class Stepper {
   // border is not named stays, and so do fixed vertices that are not named; the interior follows (options.interior).
   // Vertices of the interior may be named, too, and are then where they are asked to be. Throws InputError for
   // numbers that are no vertex's or come twice, other counts, and an interior that is told to follow nothing.
-  [[nodiscard]] StepOutcome step_border(std::span<const int> vertices, std::span<const Point> positions, double dt);
+  [[nodiscard]] StepOutcome step_border(std::span<const int> vertices, std::span<const Point> positions,
+                                        double dt);
   [[nodiscard]] StepOutcome step_border_to(std::span<const int> vertices, std::span<const Point> positions,
                                            double end_time);
 
@@ -159,13 +160,13 @@ class Stepper {
   bool knows_minima_ = false;  // of the mesh as it is
   MovedBlocks moved_;          // by the step
   double max_region_share_;
-  std::vector<Point> next_;       // positions after the step, then before it
+  std::vector<Point> next_;  // positions after the step, then before it
   InteriorOptions interior_;
   std::optional<Following> following_;  // once something has been followed
   FollowingState start_;                // of its first step
   double interior_ms_ = 0.0;            // of the step at hand
   bool has_followed_ = false;           // likewise
-  std::vector<Point> positions_;  // what positions() hands out; empty before
+  std::vector<Point> positions_;        // what positions() hands out; empty before
   std::vector<StepObserver> observers_;
   std::unique_ptr<ChangeTracker> tracker_;  // with observers or a limit only
   double time_;

@@ -38,7 +38,8 @@ class TomlTable {
   std::optional<ParameterValue> value(
       std::string_view key);  // a number, a text, a list of numbers or of points
   const toml::table* table(std::string_view key);
-  std::vector<const toml::table*> tables(std::string_view key);  // [[key]] or a list of them; empty where absent
+  std::vector<const toml::table*> tables(
+      std::string_view key);  // [[key]] or a list of them; empty where absent
 
   void known(std::string_view key) { known_.emplace_back(key); }  // is read later
   bool has(std::string_view key) const { return table_.contains(key); }

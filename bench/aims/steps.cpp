@@ -67,12 +67,13 @@ class Contestant {
     Mesh mesh = moved(move_);
     minima_ = minima_before_;
     const Stopwatch stepping;
-    const auto outcome = strategy_->repair(
-        mesh, {.before = move_.mesh.positions(), .minima = &minima_, .moved = &moved_});
+    const auto outcome =
+        strategy_->repair(mesh, {.before = move_.mesh.positions(), .minima = &minima_, .moved = &moved_});
     require_valid(outcome);
     quality_->improve(mesh, {.before = move_.mesh.positions(), .replaced = outcome.record.regions});
     const Stopwatch measuring;
-    for (const auto& region : outcome.record.regions) minima_.outdate({region.faces.data(), region.faces.size()});
+    for (const auto& region : outcome.record.regions)
+      minima_.outdate({region.faces.data(), region.faces.size()});
     minima_.outdate(quality_->flipped_faces());
     min_angle_deg_ = degrees(minima_.update(mesh).tangent);
     measuring_.push_back(measuring.milliseconds());

@@ -63,7 +63,8 @@ void print_plan(const Scenario& scenario, const RunPlan& plan) {
   print_row("markers",
             plan.markers.empty() ? std::string("none") : fmt::format("{}", fmt::join(plan.markers, ", ")));
   for (const BodyScenario& body : scenario.bodies) print_row("body", describe(body));
-  for (const MotionSpec& motion : scenario.motions) print_row("motion", describe(motion) + describe_parts(motion));
+  for (const MotionSpec& motion : scenario.motions)
+    print_row("motion", describe(motion) + describe_parts(motion));
   if (const Follow follow = scenario.interior.options.follow; follow != Follow::None)
     print_row("interior", follow == Follow::Harmonic ? "follows, harmonic" : "follows, elastic");
   print_row("time", fmt::format("{} steps of {} to {}{}", plan.steps, scenario.time.dt, plan.end_time,

@@ -93,7 +93,8 @@ void print_summary(const UntangleArguments& arguments, const Mesh& mesh, const R
 // hint: what else may be tried.
 int no_valid_mesh(const UntangleArguments& arguments, const Defect& defect, const std::string& hint = "") {
   print_error(fmt::format("{}: {}: {}; nothing was written{}", arguments.mesh.path,
-                          is_stuck(defect) ? "stays tangled" : "no valid mesh exists", defect.message(), hint));
+                          is_stuck(defect) ? "stays tangled" : "no valid mesh exists", defect.message(),
+                          hint));
   return not_valid;
 }
 
@@ -123,7 +124,8 @@ int untangle(const UntangleArguments& arguments) try {
     throw InputError("--seed goes with --strategy local only");
   }
   require_writable(arguments.output);
-  check_files({{"MESH", arguments.mesh.path}}, {{"--output", arguments.output}, {"--report", arguments.report}});
+  check_files({{"MESH", arguments.mesh.path}},
+              {{"--output", arguments.output}, {"--report", arguments.report}});
   const std::unique_ptr<Strategy> strategy = make_strategy(arguments.strategy);
   const MeshData data = read(arguments.mesh);
   Mesh mesh = build(arguments.mesh, data);

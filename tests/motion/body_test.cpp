@@ -57,7 +57,8 @@ MeshData grid_with_hole() {
 }
 
 Mesh mesh_at(const Point& where) {
-  return build_mesh(mapped(grid_with_hole(), [&](Point p) { return p + where; }), {.frame = 0.25, .fixed = {}});
+  return build_mesh(mapped(grid_with_hole(), [&](Point p) { return p + where; }),
+                    {.frame = 0.25, .fixed = {}});
 }
 
 BodySpec hole_with(std::vector<AnyField> motion) {
@@ -99,8 +100,10 @@ TEST(Body, IsExactToRoundingWhereverItIsAndHoweverManyStepsItTook) {
     const long double angle = 1.25L * t + 0.75L * std::sin(2.5L * t), way = 0.5L * std::sin(1.5L * t) / 5.0L;
     for (const int v : motion.bodies()[0].vertices()) {
       const Point X = mesh.position(v);
-      const long double rx = static_cast<long double>(X.x) - center.x, ry = static_cast<long double>(X.y) - center.y;
-      const long double ex = center.x + std::cos(angle) * rx - std::sin(angle) * ry + 3.0L * way - 0.0625L * t;
+      const long double rx = static_cast<long double>(X.x) - center.x,
+                        ry = static_cast<long double>(X.y) - center.y;
+      const long double ex =
+          center.x + std::cos(angle) * rx - std::sin(angle) * ry + 3.0L * way - 0.0625L * t;
       const long double ey = center.y + std::sin(angle) * rx + std::cos(angle) * ry + 4.0L * way + 0.125L * t;
       const double largest = std::max(std::abs(x[v].x), std::abs(x[v].y));
       EXPECT_LE(ulps(x[v].x, static_cast<double>(ex), largest), 4.0);
@@ -143,7 +146,8 @@ TEST(Body, NobodyElseMovesIt) {
 
 TEST(Body, FieldsWithoutAPoseAreIntegratedAtItsVertices) {
   const Mesh mesh = mesh_at({0.0, 0.0});
-  const Motion motion(mesh, {}, {}, Integrator::Rk4, {hole_with({std::make_shared<Shear>(Point(0.0, 0.0), 2.0)})});
+  const Motion motion(mesh, {}, {}, Integrator::Rk4,
+                      {hole_with({std::make_shared<Shear>(Point(0.0, 0.0), 2.0)})});
   EXPECT_FALSE(motion.bodies()[0].is_exact());
   const Points x = run(motion, mesh, 1.0, 10);
   for (const int v : motion.bodies()[0].vertices()) {
@@ -223,7 +227,8 @@ TEST(Body, AgreesWithAnotherOnWhatTheyShare) {
 TEST(Motion, AVertexOfTwoMarkersMovesOnce) {
   const Mesh mesh = mesh_at({0.0, 0.0});
   const AnyField shift = std::make_shared<Translation>(Point(0.125, 0.0));
-  const Motion two(mesh, {{shift, parse_restriction("marker:left")}, {shift, parse_restriction("marker:bottom")}});
+  const Motion two(mesh,
+                   {{shift, parse_restriction("marker:left")}, {shift, parse_restriction("marker:bottom")}});
   const Motion one(mesh, {{shift, parse_restriction("marker:left"), {parse_restriction("marker:bottom")}}});
   for (const Motion* motion : {&two, &one}) {
     const Points x = run(*motion, mesh, 1.0, 1);
@@ -235,9 +240,10 @@ TEST(Motion, AVertexOfTwoMarkersMovesOnce) {
 
 TEST(Motion, ALayerDoesNotBendABorderThatAnotherMotionNames) {
   const Mesh mesh = mesh_at({0.0, 0.0});
-  const Motion motion(mesh, {{std::make_shared<Translation>(Point(0.01, 0.0)), parse_restriction("marker:hole")},
-                             {std::make_shared<Translation>(Point(-0.02, 0.0)),
-                              parse_restriction("marker:left", std::array{0.0, 2.0})}});
+  const Motion motion(mesh,
+                      {{std::make_shared<Translation>(Point(0.01, 0.0)), parse_restriction("marker:hole")},
+                       {std::make_shared<Translation>(Point(-0.02, 0.0)),
+                        parse_restriction("marker:left", std::array{0.0, 2.0})}});
   const Points x = run(motion, mesh, 1.0, 1);
   for (const int v : {grid_vertex(mesh, n, 3, 3), grid_vertex(mesh, n, 5, 4)})
     EXPECT_EQ(x[v], mesh.position(v) + Point(0.01, 0.0));
@@ -284,7 +290,8 @@ TEST(Following, WhatAMotionDoesInsideIsNotDoneTwice) {
   const Mesh mesh = mesh_at({0.0, 0.0});
   const auto shear = std::make_shared<Shear>(Point(0.0, 0.0), 0.5);
   const BorderConditions moving{BorderCondition::Moving, {}};
-  for (const std::vector<BodySpec>& bodies : {std::vector<BodySpec>{}, std::vector<BodySpec>{hole_with({shear})}}) {
+  for (const std::vector<BodySpec>& bodies :
+       {std::vector<BodySpec>{}, std::vector<BodySpec>{hole_with({shear})}}) {
     const Motion motion(mesh, {{shear}}, moving, Integrator::Rk4, bodies, InteriorOptions{});
     Following following(mesh, motion.interior());
     const Points x = follow(motion, mesh, 1.0, following);

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "motion/oscillation.h"
 #include "motion/compose.h"
 #include "motion/integrator.h"
+#include "motion/oscillation.h"
 #include "motion/rigid.h"
 #include "motion/vortical.h"
 

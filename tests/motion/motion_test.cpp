@@ -11,9 +11,9 @@
 
 #include "core/measure.h"
 #include "core/predicates.h"
-#include "motion/oscillation.h"
 #include "motion/expression.h"
 #include "motion/noise.h"
+#include "motion/oscillation.h"
 #include "motion/rigid.h"
 #include "motion/vortical.h"
 #include "tests/motion/grid.h"

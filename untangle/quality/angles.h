@@ -13,8 +13,8 @@
 namespace kinemesh {
 
 struct AngleOptions {
-  double angle = 25.0;  // degrees, above 0 and below 60: faces of the domain with a smaller one are bad
-  int max_rounds = 300; // 0 or more
+  double angle = 25.0;   // degrees, above 0 and below 60: faces of the domain with a smaller one are bad
+  int max_rounds = 300;  // 0 or more
 };
 
 struct AngleCounts {
