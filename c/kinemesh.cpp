@@ -309,6 +309,16 @@ kinemesh_status kinemesh_stepper_step(kinemesh_stepper* stepper, const double* x
   });
 }
 
+kinemesh_status kinemesh_stepper_step_border(kinemesh_stepper* stepper, int32_t n, const int32_t* vertices,
+                                             const double* xy, double dt, kinemesh_step* record) {
+  return guarded([&] {
+    auto& s = required(stepper, "stepper")->stepper;
+    const std::size_t count = size(n, "n");
+    const std::span<const int> named(count > 0 ? required(vertices, "vertices") : nullptr, count);
+    accept(s.step_border(named, points(count > 0 ? required(xy, "xy") : nullptr, count), dt), record);
+  });
+}
+
 double* kinemesh_stepper_positions(kinemesh_stepper* stepper) {
   double* first = nullptr;
   (void)guarded([&] { first = &required(stepper, "stepper")->stepper.positions().data()->x; });

@@ -113,6 +113,12 @@ typedef struct kinemesh_step {
 KINEMESH_API kinemesh_status kinemesh_stepper_step(kinemesh_stepper* stepper, const double* xy, double dt,
                                                    kinemesh_step* record);
 
+/* The border, or some of it, to new places: n different vertices, and where each is to be, in a time dt >= 0. The rest
+ * of the border stays, and the interior follows harmonically. Vertices of the interior may be named, too. */
+KINEMESH_API kinemesh_status kinemesh_stepper_step_border(kinemesh_stepper* stepper, int32_t n,
+                                                          const int32_t* vertices, const double* xy, double dt,
+                                                          kinemesh_step* record);
+
 /* For those who would rather move vertices in place: the stepper's own array of positions, to be written to
  * before kinemesh_stepper_repair, which takes them for a step. After any step, taken or refused, it holds the
  * mesh's positions. Stays where it is until the stepper is destroyed. NULL without memory. */

@@ -201,7 +201,7 @@ void Motion::give_roles(const Mesh& mesh, const std::vector<MotionTerm>& terms) 
 // Where a term has no say its weight is 0.
 void Motion::add_terms(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
   for (std::size_t i = 0; i < terms.size(); ++i) {
-    const auto raw = weights_of_term(mesh, terms, i);
+    auto raw = weights_of_term(mesh, terms, i);
     const auto markers = markers_of(terms[i]);
     const auto has_say = [&](int v) {
       if (body_of(v) != none) return false;
@@ -217,9 +217,9 @@ void Motion::add_terms(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
       }
       is_inside |= !roles_.empty() && roles_[v] == Role::Free && (raw.empty() || raw[v] != 0.0);
     }
-    const auto add = [&](auto& all, const auto& field) {
-      all.push_back({field, own, is_inside ? raw : std::vector<double>(), is_inside});
-    };
+    if (is_inside && raw.empty()) raw.assign(mesh.n_vertices(), 1.0);
+    if (!is_inside) raw.clear();
+    const auto add = [&](auto& all, const auto& field) { all.push_back({field, own, raw, is_inside}); };
     if (const auto* v = std::get_if<0>(&terms[i].field)) add(velocities_, *v);
     if (const auto* d = std::get_if<1>(&terms[i].field)) add(displacements_, *d);
     if (const auto* n = std::get_if<2>(&terms[i].field)) add(noises_, *n);

@@ -86,11 +86,21 @@ std::string in_phases(const PhaseTimes& ms, int steps) {
                      milliseconds(ms.triangulate / n), milliseconds(ms.splice / n));
 }
 
+// What only some runs have.
+std::string in_rest(const PhaseTimes& ms, int steps) {
+  const double n = std::max(1, steps);
+  std::string text;
+  if (ms.interior > 0.0) text += "interior " + milliseconds(ms.interior / n);
+  if (ms.quality > 0.0) text += (text.empty() ? "quality " : ", quality ") + milliseconds(ms.quality / n);
+  return text;
+}
+
 void print_times(const RunSummary& summary, const RemeshProbe& probe) {
   if (summary.steps == 0) return;
   const double step_ms = summary.ms.total / summary.steps;
   print_row("time of a step", milliseconds(step_ms) + " ms");
   print_row("in its phases", in_phases(summary.ms, summary.steps));
+  if (const auto rest = in_rest(summary.ms, summary.steps); !rest.empty()) print_row("", rest);
   if (const auto remesh_ms = probe.step_ms(); remesh_ms && step_ms > 0.0)
     print_row("with a full re-mesh",
               fmt::format("{} ms, {:.3g} times as long", milliseconds(*remesh_ms), *remesh_ms / step_ms));

@@ -103,6 +103,26 @@ static void takes_steps_and_tells_of_them(void) {
   kinemesh_stepper_destroy(stepper);
 }
 
+static void moves_a_border_and_what_is_inside_follows(void) {
+  kinemesh_stepper* stepper = stepper_on(square(), NULL);
+  kinemesh_step record;
+  double xy[2 * n_vertices];
+  const int32_t corner[] = {2}, twice[] = {2, 2}, none_such[] = {7};
+  const double there[] = {3.5, 3.25, 3.5, 3.25};
+  CHECK(kinemesh_stepper_step_border(stepper, 1, corner, there, 0.5, &record) == KINEMESH_OK);
+  CHECK(record.step == 1 && record.time == 0.5 && record.min_angle_deg > 0);
+  CHECK(kinemesh_stepper_get(stepper, xy, NULL, NULL) == KINEMESH_OK);
+  CHECK(xy[4] == 3.5 && xy[5] == 3.25);
+  CHECK(xy[0] == 0 && xy[1] == 0 && xy[2] == 3 && xy[3] == 0 && xy[6] == 0 && xy[7] == 3);
+  CHECK(xy[12] > points[12] && xy[13] > points[13]);
+  CHECK(kinemesh_stepper_step_border(stepper, 2, twice, there, 0.5, NULL) == KINEMESH_BAD_INPUT);
+  CHECK(strstr(kinemesh_error(), "comes twice") != NULL);
+  CHECK(kinemesh_stepper_step_border(stepper, 1, none_such, there, 0.5, NULL) == KINEMESH_BAD_INPUT);
+  CHECK(kinemesh_stepper_step_border(stepper, 1, corner, NULL, 0.5, NULL) == KINEMESH_BAD_INPUT);
+  CHECK(kinemesh_stepper_time(stepper) == 0.5);
+  kinemesh_stepper_destroy(stepper);
+}
+
 static void leaves_everything_as_it_was_when_it_fails(void) {
   kinemesh_stepper* stepper = stepper_on(square(), NULL);
   double xy[2 * n_vertices], *own = kinemesh_stepper_positions(stepper);
@@ -194,6 +214,7 @@ int main(int argc, char** argv) {
   CHECK(argc == 2);
   CHECK(strlen(kinemesh_version()) > 4);
   takes_steps_and_tells_of_them();
+  moves_a_border_and_what_is_inside_follows();
   leaves_everything_as_it_was_when_it_fails();
   refuses_what_is_no_mesh();
   keeps_markers_and_labels(argv[1]);

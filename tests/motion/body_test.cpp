@@ -234,7 +234,8 @@ TEST(Motion, AVertexOfTwoMarkersMovesOnce) {
     const Points x = run(*motion, mesh, 1.0, 1);
     EXPECT_EQ(x[grid_vertex(mesh, n, 0, 3)], Point(0.125, 0.375));
     EXPECT_EQ(x[grid_vertex(mesh, n, 3, 0)], Point(0.5, 0.0));
-    EXPECT_EQ(x[grid_vertex(mesh, n, 0, 0)], Point(0.0, 0.0)) << "fixed: of the other borders, too";
+    EXPECT_EQ(x[grid_vertex(mesh, n, 0, 0)], Point(0.125, 0.0)) << "of both";
+    EXPECT_EQ(x[grid_vertex(mesh, n, n, 0)], Point(1.0, 0.0)) << "of a fixed border, too";
   }
 }
 

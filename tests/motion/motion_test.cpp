@@ -294,7 +294,7 @@ TEST(Motion, NamesTheFieldThatMadeAVertexNonFinite) {
   const Points x = start(mesh), next = moved(motion, x, 0.25, 0.1);
   const int v = grid_vertex(mesh, 4, 2, 1);
   EXPECT_FALSE(std::isfinite(next[v].x));
-  EXPECT_EQ(motion.describe_non_finite(v, x, 0.25, 0.1, 0),
+  EXPECT_EQ(motion.describe_non_finite(v, x, {0.25, 0.35, 0.1, 0}),
             "field \"expression\" gives (inf, 0) at (0.5, 0.25), time 0.25");
 }
 
@@ -303,7 +303,7 @@ TEST(Motion, NamesADisplacementThatBecomesNonFiniteWithinTheStep) {
   const Motion motion(mesh, {{std::make_shared<ExpressionDisplacement>("0", "sqrt(1-t)"), {}}});
   const int v = grid_vertex(mesh, 4, 1, 1);
   EXPECT_TRUE(std::isnan(moved(motion, start(mesh), 0.95, 0.1)[v].y));
-  EXPECT_THAT(motion.describe_non_finite(v, start(mesh), 0.95, 0.1, 0),
+  EXPECT_THAT(motion.describe_non_finite(v, start(mesh), {0.95, 1.05, 0.1, 0}),
               testing::AllOf(HasSubstr("field \"displacement\" gives (0, "),
                              HasSubstr("at (0.25, 0.25), time 0.95")));
 }

@@ -206,7 +206,7 @@ TEST_F(RecordedPositionsTest, AreBlamedForAStepOutsideTheRecord) {
   motion.advance(x0, 0.4, 0.2, 0, x1);
   const int v = mesh.vertex_of_user(8);
   EXPECT_TRUE(std::isnan(x1[v].x));
-  EXPECT_EQ(motion.describe_non_finite(v, x0, 0.4, 0.2, 0),
+  EXPECT_EQ(motion.describe_non_finite(v, x0, {0.4, 0.6, 0.2, 0}),
             "field \"recorded\" gives (nan, nan) at (1, 1), time 0.4");
 }
 

@@ -61,7 +61,7 @@ TEST(Overrides, TakeBareWordsAsTexts) {
   EXPECT_EQ(s.repair.strategy, "remesh");
   EXPECT_EQ(s.border.conditions.otherwise, BorderCondition::Slide);
   EXPECT_EQ(s.border.conditions.by_marker.at("my marker"), BorderCondition::Moving);
-  EXPECT_EQ(s.motions[0].on, "disc:[0.5,0.5,0.25]");
+  EXPECT_EQ(s.motions[0].on, std::vector<std::string>{"disc:[0.5,0.5,0.25]"});
 }
 
 TEST(Overrides, TheLastOneHolds) {

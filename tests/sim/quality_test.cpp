@@ -402,7 +402,7 @@ TEST(AngleSteps, KeepTheAnglesOfTheAirfoil) {
   scenario.repair.quality = "angles";
   scenario.repair.angle = 20.0;
   const auto made = set_up(scenario);
-  Stepper stepper(made.mesh, stepper_options(scenario.repair));
+  Stepper stepper(made.mesh, stepper_options(scenario.repair, made.motion));
   std::size_t moved = 0;
   stepper.observe([&](const StepChanges& changes) { moved += changes.moved_by_quality.size(); });
   for (int n = 1; n <= scenario.time.steps; ++n) {

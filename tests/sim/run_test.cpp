@@ -101,7 +101,7 @@ TEST_F(RunTest, LogsTheColumnsOfTheContract) {
       read_csv(out() / "steps.csv").header,
       "step,time,dt,vertices,faces,inverted,degenerate,components,regions,region_faces,region_faces_max,"
       "explored,replaced,crease_edges,retries,escaped,quality_flips,min_angle_deg,min_area,move_ms,detect_ms,"
-      "explore_ms,triangulate_ms,splice_ms,quality_ms,total_ms,accepted");
+      "explore_ms,triangulate_ms,splice_ms,quality_ms,total_ms,accepted,interior_ms,quality_moves");
   EXPECT_EQ(read_csv(out() / "regions.csv").header,
             "step,region,seed,faces,inverted,components,explored,border_edges,crease_edges,self_overlap,"
             "retries,x,y");

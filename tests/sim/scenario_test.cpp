@@ -44,7 +44,7 @@ TEST(Scenario, HasDefaultsForAllThatIsNotSaid) {
   EXPECT_EQ(s.mesh.seed, 1u);
   EXPECT_EQ(s.mesh.frame, 0.25);
   ASSERT_EQ(s.motions.size(), 1u);
-  EXPECT_EQ(s.motions[0].on, "all");
+  EXPECT_EQ(s.motions[0].on, std::vector<std::string>{"all"});
   EXPECT_FALSE(s.motions[0].blend);
   EXPECT_EQ(std::get<double>(s.motions[0].parameters.at("period")), 8.0);
   EXPECT_EQ(s.border.conditions.otherwise, BorderCondition::Fixed);
@@ -93,7 +93,7 @@ checkpoint = 0
   EXPECT_TRUE(s.mesh.split_quads);
   EXPECT_EQ(s.mesh.frame, 0.0);
   ASSERT_EQ(s.motions.size(), 2u);
-  EXPECT_EQ(s.motions[0].on, "marker:airfoil");
+  EXPECT_EQ(s.motions[0].on, std::vector<std::string>{"marker:airfoil"});
   EXPECT_EQ(s.motions[0].blend, (std::array{0.6, 3.0}));
   EXPECT_EQ(std::get<std::int64_t>(s.motions[0].parameters.at("rate")), -6);
   EXPECT_EQ(std::get<std::int64_t>(s.motions[1].parameters.at("seed")), 7);
@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"InfiniteFrame", "shape", "frame = inf\nshape",
                 "a.toml:2: frame: inf, a finite number expected"},
         Mistake{"NoMotion", "[[motion]]\nfield = 'swirl'\n", "",
-                "a.toml:1: at least one [[motion]] expected"},
+                "a.toml:1: at least one [[body]] or [[motion]] expected"},
         Mistake{"SingleMotion", "[[motion]]", "[motion]",
                 "a.toml:3: motion: a table, a list of tables expected"},
         Mistake{"NoField", "field = 'swirl'", "", "a.toml:3: [[motion]]: field expected"},

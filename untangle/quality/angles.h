@@ -28,8 +28,8 @@ struct AngleCounts {
 //
 // In rounds, each bad face proposes what leaves the largest smallest angle among the faces it touches: the
 // flip of a side, which touches two faces, or the move of a corner to its best place
-// (untangle/quality/star.h), which touches the faces around it. If none of these helps, the move of a vertex
-// of a neighbouring face, one with a common vertex and an angle below 1.15 times the wanted one. A proposal
+// (untangle/quality/star.h), which touches the faces around it. If none of these helps, what would help
+// a neighbouring face, one with a common vertex and an angle below 1.15 times the wanted one. A proposal
 // has to make the smallest angle of the faces it touches larger, by 0.01 percent at least, and leave them
 // upright, exactly. Of proposals that touch a common face that with the smaller key is done: the smallest
 // angle that is touched, then the users' numbers of what it moves or flips. Greedily in the order of keys;

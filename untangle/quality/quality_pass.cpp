@@ -17,7 +17,7 @@ class NoQuality : public QualityPass {
 
 class SmoothQuality : public QualityPass {
  public:
-  explicit SmoothQuality(const Mesh& mesh) : sweeps_(mesh) {}
+  SmoothQuality(const Mesh& mesh, const VertexFreedom& freedom) : sweeps_(mesh, freedom.held) {}
   bool moves_vertices() const override { return true; }
   QualityCounts improve(Mesh& mesh, const QualityInputs&) override {
     return {.moves = sweeps_.run(mesh, {.method = SmoothingMethod::Laplacian, .max_sweeps = 5}).moves};
@@ -36,8 +36,8 @@ std::unique_ptr<QualityPass> make_delaunay(const Mesh& mesh, const QualityOption
   return std::make_unique<DelaunayUpkeep>(mesh);
 }
 
-std::unique_ptr<QualityPass> make_smooth(const Mesh& mesh, const QualityOptions&) {
-  return std::make_unique<SmoothQuality>(mesh);
+std::unique_ptr<QualityPass> make_smooth(const Mesh& mesh, const QualityOptions& options) {
+  return std::make_unique<SmoothQuality>(mesh, options.freedom);
 }
 
 std::unique_ptr<QualityPass> make_angles(const Mesh& mesh, const QualityOptions& options) {

@@ -46,7 +46,7 @@ bool try_place(Mesh& mesh, int vertex, const Point& place, const VertexSweeps::D
 VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& options) {
   std::fill(is_moved_.begin(), is_moved_.end(), false);
   moved_.clear();
-  for (int v = 0; v < mesh.n_vertices(); ++v) restless_[v] = is_movable(mesh, v);
+  for (int v = 0; v < mesh.n_vertices(); ++v) restless_[v] = may_move(mesh, v);
   Counts counts;
   for (int moves = 1; moves > 0 && counts.sweeps < options.max_sweeps; ++counts.sweeps) {
     moves = 0;
@@ -55,6 +55,10 @@ VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& optio
   }
   counts.moved = static_cast<int>(moved_.size());
   return counts;
+}
+
+bool VertexSweeps::may_move(const Mesh& mesh, int vertex) const {
+  return is_movable(mesh, vertex) && (held_.empty() || !held_[vertex]);
 }
 
 bool VertexSweeps::visit(Mesh& mesh, int v, const SmoothingOptions& options) {
@@ -66,7 +70,7 @@ bool VertexSweeps::visit(Mesh& mesh, int v, const SmoothingOptions& options) {
   if (!moves) return false;
   if (!std::exchange(is_moved_[v], true)) moved_.push_back({v, before});
   restless_[v] = true;
-  for_each_outgoing(mesh, v, [&](int h) { restless_[mesh.to(h)] = is_movable(mesh, mesh.to(h)); });
+  for_each_outgoing(mesh, v, [&](int h) { restless_[mesh.to(h)] = may_move(mesh, mesh.to(h)); });
   return true;
 }
 

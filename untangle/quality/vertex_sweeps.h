@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/mesh.h"
@@ -15,7 +16,9 @@ namespace kinemesh {
 // when it is made: run by the Laplacian method does not allocate, and so cannot fail.
 class VertexSweeps {
  public:
-  explicit VertexSweeps(const Mesh& mesh) : restless_(mesh.n_vertices()), is_moved_(mesh.n_vertices()) {
+  // held: per vertex, stays although it could move; empty: none does.
+  explicit VertexSweeps(const Mesh& mesh, std::vector<char> held = {})
+      : held_(std::move(held)), restless_(mesh.n_vertices()), is_moved_(mesh.n_vertices()) {
     moved_.reserve(mesh.n_vertices());
   }
 
@@ -37,10 +40,12 @@ class VertexSweeps {
   std::span<const MovedVertex> moved_vertices() const { return moved_; }
 
  private:
+  bool may_move(const Mesh& mesh, int vertex) const;
   bool visit(Mesh& mesh, int vertex, const SmoothingOptions& options);
   bool move_towards_mean(Mesh& mesh, int vertex, const Demand& demand);
   bool move_to_optimum(Mesh& mesh, int vertex, const Demand& demand);
 
+  std::vector<char> held_;
   std::vector<char> restless_;  // per vertex: free, and something around it has changed since it was visited
   std::vector<char> is_moved_;  // per vertex
   std::vector<MovedVertex> moved_;
