@@ -1,0 +1,229 @@
+// Whole runs with bodies: what a run promises holds for them, too.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <map>
+
+#include "core/build.h"
+#include "core/validate.h"
+#include "sim/bench.h"
+#include "sim/run.h"
+#include "sim/setup.h"
+#include "tests/sim/helpers.h"
+
+namespace kinemesh {
+namespace {
+
+using test::results_in;
+using testing::HasSubstr;
+
+// A cylinder that goes up and down in a channel and turns, with walls that slide.
+const std::string cylinder =
+    "[mesh]\nshape = 'channel'\nvertices = 700\n"
+    "[[body]]\non = 'marker:cylinder'\n"
+    "motion = [{field = 'rigid', x = '0.2*sin(2*t)', y = '0.15*sin(5*t)'},\n"
+    "          {field = 'rotation', center = [1.0, 0.5], rate = 3.0}]\n"
+    "[border]\ntop = 'slide'\nbottom = 'slide'\n"
+    "[time]\ndt = 0.03\nsteps = 12\n"
+    "[output]\nevery = 5\ncheckpoint = 2\n";
+
+class BodyRuns : public testing::Test {
+ protected:
+  Scenario load(const std::vector<std::string>& overrides = {}) const {
+    return parse_scenario(cylinder, folder_ / "cylinder.toml", overrides);
+  }
+
+  RunSummary go(const Scenario& scenario, const std::string& name, RunOptions options = {}) const {
+    RunObserver silent;
+    options.directory = folder_ / name;
+    return kinemesh::run(scenario, options, silent);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+class StopAfter : public RunObserver {
+ public:
+  explicit StopAfter(int steps) : steps_(steps) {}
+  void stepped(const StepRecord&, const Mesh&) override {
+    if (--steps_ == 0) std::raise(SIGINT);
+  }
+
+ private:
+  int steps_;
+};
+
+TEST_F(BodyRuns, EndValidWithTheirBordersWhereTheyAreTold) {
+  const RunSummary summary = go(load(), "out");
+  ASSERT_FALSE(summary.stopped) << *summary.stopped;
+  EXPECT_GT(summary.ms.interior, 0.0);
+  const auto steps = test::read_csv(folder_ / "out/steps.csv");
+  for (std::size_t i = 0; i < steps.rows.size(); ++i) EXPECT_GT(steps.number(i, "min_angle_deg"), 15.0);
+  EXPECT_GT(steps.sum("interior_ms"), 0.0);
+}
+
+TEST_F(BodyRuns, AreTheSameForAnyNumberOfThreads) {
+  RunOptions one, two;
+  one.threads = 1;
+  two.threads = 2;
+  EXPECT_FALSE(go(load(), "one", one).stopped);
+  EXPECT_FALSE(go(load(), "two", two).stopped);
+  EXPECT_EQ(results_in(folder_ / "one"), results_in(folder_ / "two"));
+}
+
+// The solver's start vector is part of the checkpoint; also where steps are halved.
+TEST_F(BodyRuns, GoOnToTheSameBits) {
+  const std::vector<std::vector<std::string>> variants{
+      {},
+      {"time.dt=0.3", "time.steps=3", "body.0.motion.1.rate=10",
+       "time.adaptive={max_region_share=1e-6,min_dt=1e-4}"}};
+  for (const auto& overrides : variants) {
+    const std::string whole = "whole" + std::to_string(overrides.size());
+    const std::string cut = "cut" + std::to_string(overrides.size());
+    const RunSummary undisturbed = go(load(overrides), whole);
+    ASSERT_FALSE(undisturbed.stopped) << *undisturbed.stopped;
+    EXPECT_TRUE(overrides.empty() || undisturbed.rejected > 2) << undisturbed.rejected;
+    RunOptions options;
+    options.directory = folder_ / cut;
+    options.resume = true;
+    for (const int steps : {3, 4}) {
+      StopAfter observer(steps);
+      ASSERT_TRUE(kinemesh::run(load(overrides), options, observer).stopped);
+    }
+    ASSERT_FALSE(go(load(overrides), cut, options).stopped);
+    EXPECT_EQ(results_in(folder_ / cut), results_in(folder_ / whole));
+  }
+}
+
+TEST_F(BodyRuns, AreBenchedOnTheSamePositions) {
+  const std::vector<std::string> strategies{"global", "remesh", "kinetic"};
+  const Scenario scenario = load({"repair.quality=none"});
+  std::map<int, std::vector<Point>> positions;
+  int rounds = 0;
+  const auto stopped = compare_strategies(scenario, set_up(scenario), strategies, [&](const Round& round) {
+    ++rounds;
+    EXPECT_TRUE(round.record.accepted);
+    EXPECT_GT(round.record.interior_ms, 0.0);
+    const auto [first, is_new] = positions.emplace(round.record.step, round.mesh.user_positions());
+    if (!is_new) {
+      EXPECT_EQ(first->second, round.mesh.user_positions()) << round.strategy;
+    }
+  });
+  EXPECT_FALSE(stopped);
+  EXPECT_EQ(rounds, 36);
+}
+
+// On a mesh that meets the angle nothing flips and nothing moves but by the body; at rest nothing at all.
+TEST_F(BodyRuns, ComeToRestBitForBit) {
+  const Scenario scenario = parse_scenario(
+      "[mesh]\nshape = 'channel'\nvertices = 500\n"
+      "[[body]]\non = 'marker:cylinder'\nmotion = [{field = 'rigid', x = '0.01*min(t, 2)'}]\n"
+      "[repair]\nangle = 10.0\n[time]\ndt = 1.0\nsteps = 5\n",
+      "rest.toml");
+  auto made = set_up(scenario);
+  Stepper stepper(made.mesh, stepper_options(scenario.repair, made.motion));
+  std::vector<Point> at_rest;
+  for (int n = 1; n <= 5; ++n) {
+    const auto outcome = stepper.step_to(made.motion, scenario.time.time_after(n));
+    ASSERT_TRUE(outcome) << outcome.defect->message();
+    EXPECT_EQ(outcome.record.repair.quality_flips, 0);
+    EXPECT_EQ(outcome.record.repair.quality_moves, 0);
+    if (n == 2) at_rest = stepper.mesh().user_positions();
+    if (n > 2) {
+      EXPECT_EQ(stepper.mesh().user_positions(), at_rest);
+    }
+  }
+}
+
+TEST_F(BodyRuns, MistakesHaveTheirLine) {
+  const auto error_of = [&](const std::string& text) -> std::string {
+    try {
+      (void)set_up(parse_scenario(text, "a.toml"));
+      return "none";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  const std::string mesh = "[mesh]\nshape = 'channel'\nvertices = 300\n",
+                    time = "[time]\ndt = 0.1\nsteps = 1\n";
+  EXPECT_THAT(error_of(mesh + "[[body]]\nmotion = []\n" + time),
+              HasSubstr("a.toml:4: [[body]]: on expected"));
+  EXPECT_THAT(error_of(mesh + "[[body]]\non = 'marker:wing'\n" + time),
+              HasSubstr("a.toml:5: no marker 'wing'"));
+  EXPECT_THAT(
+      error_of(mesh + "[[body]]\non = 'marker:cylinder'\nmotion = [{field = 'jitter', amplitude = 0.1}]\n" +
+               time),
+      HasSubstr("a.toml:6: body marker:cylinder: field \"jitter\" is noise"));
+  EXPECT_THAT(error_of(mesh + "[[body]]\non = 'marker:cylinder'\n[border]\ncylinder = 'fixed'\n" + time),
+              HasSubstr("a.toml:7: the marker 'cylinder' is of a body"));
+  EXPECT_THAT(error_of(mesh + "[[body]]\non = 'marker:cylinder'\n[interior]\nfollow = 'rigid'\n" + time),
+              HasSubstr("a.toml:7: follow: unknown: 'rigid'"));
+  EXPECT_THAT(error_of(mesh + "[[body]]\non = 'marker:cylinder'\n[interior]\nstiffness = {a = 1.0}\n" + time),
+              HasSubstr("a label, that is an integer, expected"));
+  EXPECT_THAT(
+      error_of(mesh +
+               "[[body]]\non = 'marker:cylinder'\n[[motion]]\nfield = 'translate'\nvelocity = [0, 1]\n"
+               "on = 'marker:top'\nblend = [0.1, 0.2]\n" +
+               time),
+      HasSubstr("blend makes a layer"));
+  EXPECT_EQ(error_of(mesh + "[[body]]\non = 'marker:cylinder'\n" + time), "none");
+}
+
+TEST_F(BodyRuns, LoadBackFromTheResolvedScenario) {
+  const Scenario scenario = load({"interior.follow=elastic", "interior.stiffness.0=2.5"});
+  const std::string text = to_toml(scenario);
+  EXPECT_EQ(to_toml(parse_scenario(text, folder_ / "again.toml")), text);
+  EXPECT_THAT(text, HasSubstr("follow = 'elastic'\nstiffness = {0 = 2.5}"));
+  EXPECT_THAT(text, HasSubstr("quality = 'angles'\nangle = 25.0"));
+}
+
+// A step longer than the frame is deep: nothing inverts, a mesh exists, and it is found.
+TEST_F(BodyRuns, AStepLongerThanTheFrameTakesItAlong) {
+  const Scenario scenario = parse_scenario(
+      "[mesh]\nshape = 'square'\nvertices = 300\n[[motion]]\nfield = 'shear'\nrate = 50.0\n"
+      "[border]\ndefault = 'moving'\n[time]\ndt = 0.1\nsteps = 3\n",
+      "shear.toml");
+  auto made = set_up(scenario);
+  Stepper stepper(made.mesh, stepper_options(scenario.repair, made.motion));
+  for (int n = 1; n <= 3; ++n) ASSERT_TRUE(stepper.step_to(made.motion, scenario.time.time_after(n)));
+  EXPECT_FALSE(validate(stepper.mesh()));
+}
+
+TEST_F(BodyRuns, AVertexThatHasCrossedABorderSaysWhich) {
+  const Scenario scenario = parse_scenario(
+      "[mesh]\nshape = 'annulus'\nvertices = 400\n[[motion]]\nfield = 'translate'\nvelocity = [1.0, 0.0]\n"
+      "on = 'marker:inner'\n[time]\ndt = 0.2\nsteps = 10\n",
+      "ring.toml");
+  const RunSummary summary = go(scenario, "out");
+  ASSERT_TRUE(summary.stopped);
+  EXPECT_THAT(*summary.stopped, HasSubstr("it has crossed the border of marker \"inner\" near edge"));
+  EXPECT_THAT(*summary.stopped, HasSubstr("[interior] follow"));
+}
+
+TEST(StepBorder, MovesTheBorderAndTheInteriorFollows) {
+  Stepper stepper(build_mesh(test::grid_with_hole(8, 3, 5), {.frame = 0.25, .fixed = {}}),
+                  {.quality = "angles"});
+  std::vector<int> hole;
+  const MeshData data = stepper.mesh().domain();
+  for (const Marker& marker : data.markers)
+    if (marker.name == "hole")
+      for (const Edge& edge : marker.edges) hole.push_back(edge[0]);
+  for (int n = 1; n <= 10; ++n) {
+    std::vector<Point> places;
+    for (const int v : hole) places.push_back(data.points[v] + Point(0.02 * n, 0.0));
+    const auto outcome = stepper.step_border(hole, places, 0.1);
+    ASSERT_TRUE(outcome) << outcome.defect->message();
+    const auto now = stepper.mesh().user_positions();
+    for (std::size_t i = 0; i < hole.size(); ++i) EXPECT_EQ(now[hole[i]], places[i]);
+    EXPECT_EQ(now[0], data.points[0]);
+    EXPECT_FALSE(validate(stepper.mesh()));
+  }
+  EXPECT_GT(stepper.mesh().user_positions()[2 * 9 + 2].x, data.points[2 * 9 + 2].x);
+  const std::vector<int> twice{hole[0], hole[0]};
+  EXPECT_THROW((void)stepper.step_border(twice, std::vector<Point>(2), 0.1), InputError);
+  EXPECT_THROW((void)stepper.step_border(hole, std::vector<Point>(2), 0.1), InputError);
+}
+
+}  // namespace
+}  // namespace kinemesh
