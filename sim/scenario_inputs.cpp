@@ -24,9 +24,14 @@ ScenarioInputs::ScenarioInputs(const Scenario& scenario) {
   add(scenario.file);
   add(scenario.mesh.file);
   const fs::path folder = fs::absolute(scenario.file).parent_path();
-  for (const MotionSpec& motion : scenario.motions)
-    for (const auto& [name, value] : motion.parameters)
-      if (const auto* text = std::get_if<std::string>(&value)) add_named(*text, folder);
+  for (const MotionSpec& motion : scenario.motions) add_named_by(motion, folder);
+  for (const BodyScenario& body : scenario.bodies)
+    for (const MotionSpec& motion : body.motions) add_named_by(motion, folder);
+}
+
+void ScenarioInputs::add_named_by(const MotionSpec& motion, const fs::path& folder) {
+  for (const auto& [name, value] : motion.parameters)
+    if (const auto* text = std::get_if<std::string>(&value)) add_named(*text, folder);
 }
 
 bool ScenarioInputs::contain(const fs::path& file) const {

@@ -24,6 +24,7 @@ class ScenarioInputs {
  private:
   void add(const std::filesystem::path& file);
   void add_series(const std::filesystem::path& file);
+  void add_named_by(const MotionSpec& motion, const std::filesystem::path& folder);
   void add_named(const std::string& text, const std::filesystem::path& folder);
 
   std::set<std::pair<dev_t, ino_t>> files_;

@@ -99,6 +99,20 @@ TEST_F(Files, ARecordedSeriesIsNotReplacedByItsRun) {
   EXPECT_EQ(run({"run", "rec.toml", "-o", "new", "-q"}).code, 0);
 }
 
+TEST_F(Files, TheTableOfABodyIsNotReplacedByItsRun) {
+  ASSERT_TRUE(fs::create_directory(path("d")));
+  write("d/steps.csv", "t,x,y,angle\n0,0,0,0\n1,0.1,0,0\n");
+  write("b.toml",
+        "[mesh]\nshape = \"channel\"\nvertices = 300\n[[body]]\non = \"marker:cylinder\"\n"
+        "motion = [{field = \"rigid\", file = \"d/steps.csv\"}]\n[time]\ndt = 0.1\nsteps = 2\n");
+  for (const char* option : {"-q", "--force", "--resume"}) {
+    const auto before = everything_in(path("."));
+    EXPECT_EQ(run({"run", "b.toml", "-o", "d", option}).code, 2);
+    EXPECT_TRUE(everything_in(path(".")) == before);
+  }
+  EXPECT_EQ(run({"run", "b.toml", "-o", "new", "-q"}).code, 0);
+}
+
 TEST_F(Files, InputsOfABenchmarkAreNotReplacedByIt) {
   ASSERT_TRUE(fs::create_directory(path("b")));
   write("b/bench.csv", "strategy,step,time\nx,y,u,v\n0,0,1,0\n1,0,1,0\n0,1,1,0\n1,1,1,0\n");
