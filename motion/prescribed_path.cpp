@@ -1,5 +1,7 @@
 #include "motion/prescribed_path.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -34,7 +36,7 @@ std::optional<Point> FormulaPath::center() const {
   return turns_ ? PrescribedPath::center() : std::nullopt;
 }
 
-TablePath::TablePath(const Point& center, const std::string& file) : PrescribedPath(center) {
+TablePath::TablePath(const Point& center, const std::string& file) : PrescribedPath(center), file_(file) {
   std::string text = read_file(file);
   std::ranges::replace(text, ',', ' ');
   io::Scanner in(text, file, '#');
@@ -53,10 +55,21 @@ TablePath::TablePath(const Point& center, const std::string& file) : PrescribedP
   if (rows_.empty()) in.fail("the file ends, at least one row t,x,y,angle expected");
 }
 
+bool TablePath::covers(double from, double to) const {
+  const double first = rows_.front().time, last = rows_.back().time, tolerance = slack * (last - first);
+  return from >= first - tolerance && to <= last + tolerance;
+}
+
+void TablePath::require_times(double from, double to) const {
+  if (!covers(from, to))
+    throw InputError(file_, 0,
+                     fmt::format("rows from time {} to {}, but needed from {} to {}", rows_.front().time,
+                                 rows_.back().time, from, to));
+}
+
 Pose TablePath::pose(double t) const {
-  const double tolerance = slack * (last_time() - first_time());
   constexpr long double nan = std::numeric_limits<long double>::quiet_NaN();
-  if (!(t >= first_time() - tolerance && t <= last_time() + tolerance)) return {nan, nan, nan};
+  if (!covers(t, t)) return {nan, nan, nan};
   const auto next = std::ranges::upper_bound(rows_, t, {}, &Row::time);
   if (next == rows_.begin() || next == rows_.end()) {
     const Row& row = next == rows_.begin() ? rows_.front() : rows_.back();

@@ -44,10 +44,13 @@ class TablePath final : public PrescribedPath {
   TablePath(const Point& center, const std::string& file);
   Pose pose(double t) const override;
 
-  double first_time() const { return rows_.front().time; }
-  double last_time() const { return rows_.back().time; }
+  void require_times(double from,
+                     double to) const;  // throws InputError that names the file: it does not reach
 
  private:
+  bool covers(double from, double to) const;
+
+  std::string file_;
   struct Row {
     double time, x, y, angle;
   };

@@ -9,6 +9,7 @@
 #include "core/io/mesh_io.h"
 #include "core/shapes.h"
 #include "core/validate.h"
+#include "motion/prescribed_path.h"
 #include "motion/recorded.h"
 #include "motion/registry.h"
 #include "motion/restriction.h"
@@ -62,18 +63,18 @@ using MarkerNames = std::unordered_set<std::string_view>;
                             (names.empty() ? ", which has none" : suggestion(name, names)));
 }
 
-const RecordedPositions* record_in(const AnyField& field) {
+// What a field reads from a file fits some times only; and a record, which `fits` is asked for, some places.
+template <class Fits>
+void require_file(const AnyField& field, double end, const Where& where, const Fits& fits) {
   const auto* displacement = std::get_if<std::shared_ptr<const DisplacementField>>(&field);
-  return displacement ? dynamic_cast<const RecordedPositions*>(displacement->get()) : nullptr;
-}
-
-// A record fits one mesh and some times only.
-void require_record(const AnyField& field, const Mesh& mesh, const Scenario& scenario, const Where& where) {
-  const auto* record = record_in(field);
-  if (!record) return;
+  if (!displacement) return;
   try {
-    record->require_initial(mesh.user_positions());
-    record->require_times(0.0, scenario.time.end);
+    if (const auto* table = dynamic_cast<const TablePath*>(displacement->get()))
+      table->require_times(0.0, end);
+    if (const auto* record = dynamic_cast<const RecordedPositions*>(displacement->get())) {
+      fits(*record);
+      record->require_times(0.0, end);
+    }
   } catch (const InputError& error) {
     throw error_at(where, error.what());
   }
@@ -88,7 +89,8 @@ std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, Bor
   for (const MotionSpec& motion : scenario.motions) {
     MotionTerm& term = terms.emplace_back();
     term.field = fields.of(motion);
-    require_record(term.field, mesh, scenario, motion.where_of("file"));
+    require_file(term.field, scenario.time.end, motion.where_of("file"),
+                 [&](const RecordedPositions& record) { record.require_initial(mesh.user_positions()); });
     for (const std::string& part : motion.on) {
       const Restriction restriction = parse_restriction(part, motion.blend);
       if (const auto* on = std::get_if<OnMarker>(&restriction.on)) {
@@ -127,21 +129,13 @@ std::vector<BodySpec> bodies_of(const Scenario& scenario, const Mesh& mesh, Bord
 }
 
 // A body's record holds its vertices, and may hold others.
-void require_body_records(const Scenario& scenario, const Motion& motion,
-                          const std::vector<BodySpec>& bodies) {
+void require_body_files(const Scenario& scenario, const Motion& motion, const std::vector<BodySpec>& bodies) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<Point> places;
     for (const int v : motion.bodies()[b].vertices()) places.push_back(motion.initial_positions()[v]);
-    for (std::size_t i = 0; i < bodies[b].motion.size(); ++i) {
-      const auto* record = record_in(bodies[b].motion[i]);
-      if (!record) continue;
-      try {
-        record->require_all(places);
-        record->require_times(0.0, scenario.time.end);
-      } catch (const InputError& error) {
-        throw error_at(scenario.bodies[b].motions[i].where_of("file"), error.what());
-      }
-    }
+    for (std::size_t i = 0; i < bodies[b].motion.size(); ++i)
+      require_file(bodies[b].motion[i], scenario.time.end, scenario.bodies[b].motions[i].where_of("file"),
+                   [&](const RecordedPositions& record) { record.require_all(places); });
   }
 }
 
@@ -237,7 +231,7 @@ SetUp set_up(const Scenario& scenario, Mesh mesh) {
     require_still_hull(scenario, mesh, border);
     Motion motion(mesh, std::move(terms), std::move(border), scenario.time.integrator, bodies,
                   scenario.interior.options);
-    require_body_records(scenario, motion, bodies);
+    require_body_files(scenario, motion, bodies);
     auto notes = motion.notes();
     return {std::move(mesh), std::move(motion), std::move(notes)};
   } catch (const ParameterError& error) {

@@ -40,7 +40,8 @@ std::map<std::string, std::string> everything_in(const fs::path& folder) {
 class Files : public ProgramTest {
  protected:
   // The command ends with exit code 2 and leaves every file as it was.
-  void expect_untouched(const std::vector<std::string>& arguments, std::initializer_list<const char*> words) const {
+  void expect_untouched(const std::vector<std::string>& arguments,
+                        std::initializer_list<const char*> words) const {
     const auto before = everything_in(path("."));
     expect_error(run(arguments), 2, words);
     EXPECT_TRUE(everything_in(path(".")) == before) << arguments.front();
@@ -76,8 +77,8 @@ TEST_F(Files, ARecordedSeriesIsNotReplacedByItsRun) {
   write("s.toml", steps(20, "every = 5\n"));
   ASSERT_EQ(run({"run", "s.toml", "-o", "prev", "-q"}).code, 0);
   fs::create_directory(path("series"));
-  for (const char* name : {"mesh.pvd", "mesh_000000.vtu", "mesh_000005.vtu", "mesh_000010.vtu", "mesh_000015.vtu",
-                           "mesh_000020.vtu"})
+  for (const char* name : {"mesh.pvd", "mesh_000000.vtu", "mesh_000005.vtu", "mesh_000010.vtu",
+                           "mesh_000015.vtu", "mesh_000020.vtu"})
     fs::copy(path("prev") / name, path("series") / name);
   fs::copy(path("prev/mesh_000000.vtu"), path("start.vtu"));
   const std::string motion = "[[motion]]\nfield = \"recorded\"\nfile = \"";
@@ -111,6 +112,8 @@ TEST_F(Files, TheTableOfABodyIsNotReplacedByItsRun) {
     EXPECT_TRUE(everything_in(path(".")) == before);
   }
   EXPECT_EQ(run({"run", "b.toml", "-o", "new", "-q"}).code, 0);
+  expect_untouched({"run", "b.toml", "-o", "longer", "-q", "--set", "time.steps=20"},
+                   {"b.toml:6: ", "d/steps.csv: rows from time 0 to 1, but needed from 0 to 2"});
 }
 
 TEST_F(Files, InputsOfABenchmarkAreNotReplacedByIt) {
@@ -185,14 +188,16 @@ TEST_F(Files, ABenchmarkWritesThroughNoLinkEither) {
   write("s.toml", steps(2));
   write("victim", "precious");
   ASSERT_TRUE(fs::create_directory(path("elsewhere")));
-  for (const char* name : {"bench.csv", "bench_regions.csv", "bench_bound.csv", "plots/steps.gp", "plots/steps.svg"}) {
+  for (const char* name :
+       {"bench.csv", "bench_regions.csv", "bench_bound.csv", "plots/steps.gp", "plots/steps.svg"}) {
     fs::remove_all(path("b"));
     ASSERT_TRUE(fs::create_directories(path("b/plots")));
     fs::create_symlink(path("victim"), path("b") / name);
     expect_untouched({"bench", "s.toml", "--strategies", "global", "-o", "b", "--force"}, {"symbolic link"});
     fs::remove(path("b") / name);
     ASSERT_EQ(mkfifo((path("b") / name).c_str(), 0600), 0);
-    expect_error(run({"bench", "s.toml", "--strategies", "global", "-o", "b", "--force"}), 2, {"regular file"});
+    expect_error(run({"bench", "s.toml", "--strategies", "global", "-o", "b", "--force"}), 2,
+                 {"regular file"});
   }
   fs::remove_all(path("b"));
   ASSERT_TRUE(fs::create_directory(path("b")));
@@ -274,8 +279,8 @@ TEST_F(Files, StandardOutputThatIsFullIsAFailure) {
   write("m.off", grid_off(3));
   write("s.toml", steps(2));
   const auto code_of = [&](const std::string& command) {
-    const int status =
-        std::system(("cd " + path(".").string() + " && " KINEMESH_PROGRAM " " + command + " > /dev/full 2> err").c_str());
+    const int status = std::system(
+        ("cd " + path(".").string() + " && " KINEMESH_PROGRAM " " + command + " > /dev/full 2> err").c_str());
     return WEXITSTATUS(status);
   };
   EXPECT_EQ(code_of("check m.off"), 3);
