@@ -12,13 +12,15 @@
 #include "core/measure.h"
 #include "core/parallel.h"
 #include "untangle/quality/around.h"
+#include "untangle/quality/joint_star.h"
 #include "untangle/quality/star.h"
 
 namespace kinemesh {
 namespace {
 
 constexpr int grain = 32;             // places or faces that are worth a task
-constexpr double nearly = 1.15;       // times the wanted angle: of neighbours that may move
+constexpr int joint_grain = 1;        // and joint moves
+constexpr std::array rings{1, 2, 4};  // of faces around a bad one, whose vertices move together
 constexpr double least_gain = 1e-4;   // of the angle
 constexpr double rounding = 0x1p-44;  // of tangents up to that of 60 degrees, whichever corner comes first
 
@@ -33,8 +35,8 @@ bool is_better(double after, double before) {
 }
 
 template <class F>
-void for_all(int n, const F& f) {
-  parallel_parts(n, grain, [&](int, int begin, int end) {
+void for_all(int n, int n_a_task, const F& f) {
+  parallel_parts(n, n_a_task, [&](int, int begin, int end) {
     for (int i = begin; i != end; ++i) f(i);
   });
 }
@@ -93,7 +95,6 @@ AngleUpkeep::AngleUpkeep(const Mesh& mesh, const AngleOptions& options, VertexFr
     : options_(checked(options)),
       freedom_(std::move(freedom)),
       wanted_(tangent_of(options.angle)),
-      nearly_wanted_(tangent_of(nearly * options.angle)),
       round_(mesh.n_faces(), 0),
       place_of_(mesh.n_vertices(), none),
       is_flipped_(mesh.n_faces(), false),
@@ -131,6 +132,7 @@ void AngleUpkeep::forget() {
   moved_.clear();
   places_.clear();
   n_found_ = 0;
+  joints_.clear();
 }
 
 bool AngleUpkeep::is_bad(const Mesh& mesh, int face) const {
@@ -149,8 +151,7 @@ void AngleUpkeep::find_bad(const Mesh& mesh, FaceMinima& minima) {
 // False if there was nothing to do.
 bool AngleUpkeep::do_round(Mesh& mesh, AngleCounts& counts) {
   propose(mesh);
-  propose_around(mesh);
-  std::erase_if(proposals_, [](const auto& proposal) { return proposal.is_none(); });
+  if (proposals_.empty()) propose_jointly(mesh);
   if (proposals_.empty()) return false;
   choose(mesh);
   carry_out(mesh, counts);
@@ -163,19 +164,74 @@ void AngleUpkeep::propose(const Mesh& mesh) {
     for (const int v : mesh.triangles()[face]) ask_for_place(mesh, v);
   find_places(mesh);
   proposals_.resize(bad_.size());
-  for_all(static_cast<int>(bad_.size()), [&](int i) { proposals_[i] = best_at(mesh, bad_[i]); });
+  for_all(static_cast<int>(bad_.size()), grain, [&](int i) { proposals_[i] = best_at(mesh, bad_[i]); });
+  std::erase_if(proposals_, [](const auto& proposal) { return proposal.is_none(); });
 }
 
-// For those without a proposal.
-void AngleUpkeep::propose_around(const Mesh& mesh) {
-  for (std::size_t i = 0; i < bad_.size(); ++i)
-    if (proposals_[i].is_none())
-      for_each_neighbour(mesh, bad_[i], [&](int neighbour) {
-        for (const int v : mesh.triangles()[neighbour]) ask_for_place(mesh, v);
+// Those of before are still right where nothing has changed.
+void AngleUpkeep::propose_jointly(const Mesh& mesh) {
+  std::ranges::sort(bad_);
+  std::erase_if(joints_, [&](const Joint& joint) {
+    return !std::ranges::binary_search(bad_, joint.face) || is_outdated(joint);
+  });
+  const std::size_t n_known = joints_.size();
+  std::vector<int> known;
+  for (const Joint& joint : joints_) known.push_back(joint.face);
+  std::ranges::sort(known);
+  for (const int face : bad_)
+    if (!std::ranges::binary_search(known, face)) joints_.push_back({.face = face});
+  const std::span<Joint> asked = std::span(joints_).subspan(n_known);
+  for_all(static_cast<int>(asked.size()), joint_grain, [&](int i) { find_joint(mesh, asked[i]); });
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (joints_[i].after != 0.0) proposals_.push_back(joint_move(mesh, static_cast<int>(i)));
+}
+
+bool AngleUpkeep::is_outdated(const Joint& joint) const {
+  return std::ranges::any_of(joint.faces, [&](int face) { return round_[face] > joint.round; });
+}
+
+// As far around the face as it takes, but not beyond a worse one, which looks around itself.
+void AngleUpkeep::find_joint(const Mesh& mesh, Joint& joint) const {
+  const double own = tangent_from_any_corner(mesh.corners(joint.face));
+  joint.round = n_rounds_;
+  for (const int n_rings : rings) {
+    const std::vector<FreeVertex> free = free_vertices_around(mesh, joint.face, n_rings);
+    const JointStar star(mesh, free);
+    joint.faces.assign(star.faces().begin(), star.faces().end());
+    joint.before = star.tangent();
+    std::vector<Point> places = star.best_places();
+    const double after = star.tangent_at(places);
+    if (is_better(after, joint.before) && star.is_upright_at(places)) {
+      joint.after = after;
+      for (std::size_t i = 0; i < free.size(); ++i)
+        joint.moves.push_back({.vertex = free[i].vertex, .where = places[i]});
+      return;
+    }
+    if (joint.before < own) return;
+  }
+}
+
+// Ascending by users' numbers.
+std::vector<FreeVertex> AngleUpkeep::free_vertices_around(const Mesh& mesh, int face, int n_rings) const {
+  const auto user = [&](int v) { return mesh.user_vertex(v); };
+  std::vector<int> vertices(mesh.triangles()[face].begin(), mesh.triangles()[face].end());
+  for (int ring = 0; ring < n_rings; ++ring) {
+    for (std::size_t i = 0, n = vertices.size(); i < n; ++i)
+      for_each_around(mesh, vertices[i], [&](int f) {
+        if (!mesh.is_padding(f))
+          vertices.insert(vertices.end(), mesh.triangles()[f].begin(), mesh.triangles()[f].end());
       });
-  find_places(mesh);
-  for (std::size_t i = 0; i < bad_.size(); ++i)
-    if (proposals_[i].is_none()) proposals_[i] = best_around(mesh, bad_[i]);
+    std::ranges::sort(vertices, {}, user);
+    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  }
+  std::vector<FreeVertex> free;
+  for (const int v : vertices) {
+    const Freedom freedom = freedom_of(mesh, v);
+    if (freedom == Freedom::Plane) free.push_back({v});
+    if (freedom == Freedom::Line && Star(mesh, v).may_move_along(freedom_.tangents.at(v)))
+      free.push_back({v, freedom_.tangents.at(v)});
+  }
+  return free;
 }
 
 // Once for each vertex, until something around it changes.
@@ -187,7 +243,7 @@ void AngleUpkeep::ask_for_place(const Mesh& mesh, int vertex) {
 
 void AngleUpkeep::find_places(const Mesh& mesh) {
   const std::span<Place> asked = std::span(places_).subspan(n_found_);
-  for_all(static_cast<int>(asked.size()), [&](int i) { find_place(mesh, asked[i]); });
+  for_all(static_cast<int>(asked.size()), grain, [&](int i) { find_place(mesh, asked[i]); });
   n_found_ = places_.size();
 }
 
@@ -231,7 +287,7 @@ AngleUpkeep::Proposal AngleUpkeep::move_of(const Mesh& mesh, int vertex) const {
   const Place& place = places_[number];
   return {.before = place.before,
           .after = place.after,
-          .users = {none, mesh.user_vertex(vertex)},
+          .users = {none, none, mesh.user_vertex(vertex)},
           .place = number};
 }
 
@@ -248,26 +304,15 @@ AngleUpkeep::Proposal AngleUpkeep::flip_of(const Mesh& mesh, int h) const {
   const auto [before, after] = tangents_of_flip(mesh, edge);
   if (!is_better(after, before)) return {};
   const auto [low, high] = std::minmax({mesh.user_vertex(mesh.from(h)), mesh.user_vertex(mesh.to(h))});
-  return {.before = before, .after = after, .users = {low, high}, .edge = edge};
+  return {.before = before, .after = after, .users = {none, low, high}, .edge = edge};
 }
 
-AngleUpkeep::Proposal AngleUpkeep::best_around(const Mesh& mesh, int face) const {
-  Proposal best;
-  for_each_neighbour(mesh, face, [&](int neighbour) {
-    for (const int v : mesh.triangles()[neighbour]) best = better(best, move_of(mesh, v));
-    for (const int h : mesh.sides(neighbour)) best = better(best, flip_of(mesh, h));
-  });
-  return best;
-}
-
-// Those that are nearly bad; one may come twice.
-template <class Visit>
-void AngleUpkeep::for_each_neighbour(const Mesh& mesh, int face, const Visit& visit) const {
-  for (const int corner : mesh.triangles()[face])
-    for_each_around(mesh, corner, [&](int neighbour) {
-      if (!mesh.is_padding(neighbour) && tangent_from_any_corner(mesh.corners(neighbour)) < nearly_wanted_)
-        visit(neighbour);
-    });
+AngleUpkeep::Proposal AngleUpkeep::joint_move(const Mesh& mesh, int number) const {
+  const Joint& joint = joints_[number];
+  std::array<int, 3> users = mesh.triangles()[joint.face];
+  for (int& v : users) v = mesh.user_vertex(v);
+  std::ranges::sort(users);
+  return {.before = joint.before, .after = joint.after, .users = users, .joint = number};
 }
 
 void AngleUpkeep::choose(const Mesh& mesh) {
@@ -284,8 +329,10 @@ bool AngleUpkeep::take(const Mesh& mesh, const Proposal& proposal) {
   const auto for_each_touched = [&](const auto& visit) {
     if (proposal.edge != none)
       for_each_beside(mesh, proposal.edge, visit);
-    else
+    else if (proposal.place != none)
       for_each_around(mesh, places_[proposal.place].vertex, visit);
+    else
+      std::ranges::for_each(joints_[proposal.joint].faces, visit);
   };
   bool is_free = true;
   for_each_touched([&](int face) { is_free &= round_[face] != n_rounds_; });
@@ -299,16 +346,26 @@ bool AngleUpkeep::take(const Mesh& mesh, const Proposal& proposal) {
 
 // They share no face, so that each finds its own as it saw them.
 void AngleUpkeep::carry_out(Mesh& mesh, AngleCounts& counts) {
-  make_room(moved_, winners_.size());
+  std::size_t n_moves = 0;
+  for (const Proposal& winner : winners_) n_moves += moves_of(winner).size();
+  make_room(moved_, n_moves);
   make_room(flipped_, 2 * winners_.size());
   for (const Proposal& winner : winners_) {
-    const bool is_flip = winner.edge != none;
-    ++(is_flip ? counts.flips : counts.moves);
-    if (is_flip)
+    if (winner.edge != none) {
       flip(mesh, winner.edge);
-    else
-      move(mesh, places_[winner.place]);
+      ++counts.flips;
+    }
+    for (const Place& place : moves_of(winner)) {
+      move(mesh, place);
+      ++counts.moves;
+    }
   }
+}
+
+std::span<const AngleUpkeep::Place> AngleUpkeep::moves_of(const Proposal& proposal) const {
+  if (proposal.place != none) return {&places_[proposal.place], 1};
+  if (proposal.joint != none) return joints_[proposal.joint].moves;
+  return {};
 }
 
 void AngleUpkeep::move(Mesh& mesh, const Place& place) noexcept {

@@ -7,6 +7,7 @@
 
 #include "core/face_minima.h"
 #include "core/mesh.h"
+#include "untangle/quality/joint_star.h"
 #include "untangle/quality/quality_pass.h"
 #include "untangle/quality/vertex_freedom.h"
 
@@ -28,10 +29,10 @@ struct AngleCounts {
 //
 // In rounds, each bad face proposes what leaves the largest smallest angle among the faces it touches: the
 // flip of a side, which touches two faces, or the move of a corner to its best place
-// (untangle/quality/star.h), which touches the faces around it. If none of these helps, what would help
-// a neighbouring face, one with a common vertex and an angle below 1.15 times the wanted one. A proposal
-// has to make the smallest angle of the faces it touches larger, by 0.01 percent at least, and leave them
-// upright, exactly. Of proposals that touch a common face that with the smaller key is done: the smallest
+// (untangle/quality/star.h), which touches the faces around it. In a round in which no bad face has a
+// proposal, each tries to move the vertices near it together, those of one ring of faces, or else, if no worse
+// face is among them, of two, or of four (untangle/quality/joint_star.h). A proposal has to make the smallest angle of the faces it touches
+// larger, by 0.01 percent at least, and leave them upright, exactly. Of proposals that touch a common face that with the smaller key is done: the smallest
 // angle that is touched, then the users' numbers of what it moves or flips. Greedily in the order of keys;
 // the same come out if again and again each goes ahead whose key is smallest among those it shares faces with
 // [Blelloch 2012], as several machines with a part of the mesh each can find out. Ends when no proposal is
@@ -65,13 +66,23 @@ class AngleUpkeep : public QualityPass {
     double before = 0.0, after = 0.0;
   };
 
+  // Where the vertices around a bad face should go together.
+  struct Joint {
+    int face;
+    int round = 0;             // after which this was found
+    std::vector<int> faces{};  // that it has looked at: it stays right while they are as they were
+    std::vector<Place> moves{};
+    double before = 0.0, after = 0.0;  // after is 0 if nothing helps
+  };
+
   struct Proposal {
     double before = 0.0, after = 0.0;
-    std::array<int, 2> users{none, none};  // the numbers of what it moves or flips, ascending
-    int edge = none;                       // to be flipped
-    int place = none;                      // or where to move
+    std::array<int, 3> users{none, none, none};  // of the vertex, the edge or the face, ascending at the end
+    int edge = none;                             // to be flipped
+    int place = none;                            // or where to move
+    int joint = none;                            // or where several move
 
-    bool is_none() const { return users[1] == none; }
+    bool is_none() const { return users[2] == none; }
     bool comes_before(const Proposal& other) const;  // by their keys
     bool is_preferred_to(const Proposal& other) const;
   };
@@ -84,27 +95,29 @@ class AngleUpkeep : public QualityPass {
   bool is_bad(const Mesh& mesh, int face) const;
   bool do_round(Mesh& mesh, AngleCounts& counts);
   void propose(const Mesh& mesh);
-  void propose_around(const Mesh& mesh);
+  void propose_jointly(const Mesh& mesh);
+  bool is_outdated(const Joint& joint) const;
+  void find_joint(const Mesh& mesh, Joint& joint) const;
+  std::vector<FreeVertex> free_vertices_around(const Mesh& mesh, int face, int n_rings) const;
   void find_places(const Mesh& mesh);
   void ask_for_place(const Mesh& mesh, int vertex);
   Freedom freedom_of(const Mesh& mesh, int vertex) const;
   void find_place(const Mesh& mesh, Place& place) const;
   Proposal best_at(const Mesh& mesh, int face) const;
-  Proposal best_around(const Mesh& mesh, int face) const;
   Proposal flip_of(const Mesh& mesh, int halfedge) const;
   Proposal move_of(const Mesh& mesh, int vertex) const;
-  template <class Visit>
-  void for_each_neighbour(const Mesh& mesh, int face, const Visit& visit) const;
+  Proposal joint_move(const Mesh& mesh, int number) const;
   void choose(const Mesh& mesh);
   bool take(const Mesh& mesh, const Proposal& proposal);
   void carry_out(Mesh& mesh, AngleCounts& counts);
+  std::span<const Place> moves_of(const Proposal& proposal) const;
   void move(Mesh& mesh, const Place& place) noexcept;
   void flip(Mesh& mesh, int edge) noexcept;
   void find_still_bad(const Mesh& mesh);
 
   AngleOptions options_;
   VertexFreedom freedom_;
-  double wanted_, nearly_wanted_;  // tangents
+  double wanted_;  // tangent
   FaceMinima own_minima_;
 
   std::vector<int> bad_;  // faces
@@ -117,6 +130,8 @@ class AngleUpkeep : public QualityPass {
   std::vector<Place> places_;  // that somebody has asked for
   std::vector<int> place_of_;  // per vertex: the number of its place as things are; or none
   std::size_t n_found_ = 0;    // places, the first ones
+
+  std::vector<Joint> joints_;  // of bad faces, since all were stuck for the first time
 
   std::vector<int> flipped_;      // faces
   std::vector<char> is_flipped_;  // per face

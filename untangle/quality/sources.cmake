@@ -7,5 +7,6 @@ set(KINEMESH_QUALITY_SOURCES
   quality/optimal_point.cpp
   quality/quality_pass.cpp
   quality/smoothing.cpp
+  quality/joint_star.cpp
   quality/star.cpp
   quality/vertex_sweeps.cpp)

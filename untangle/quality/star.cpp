@@ -88,12 +88,22 @@ Point Star::best_place() const {
   return optimal_point({link_.data(), link_.size()}, x_);
 }
 
-std::optional<Point> Star::best_place_along(const Point& direction) const {
+// Of the other ends of the two constrained edges.
+std::array<double, 2> Star::range_along(const Point& direction) const {
+  const double a = dot(constrained_[0] - x_, direction), b = dot(constrained_[1] - x_, direction);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+bool Star::may_move_along(const Point& direction) const {
   const bool is_slanted = direction.x != 0.0 && direction.y != 0.0;
-  if (constrained_.size() != 2 || (is_on_hull_ && is_slanted)) return std::nullopt;
-  const auto [low, high] =
-      std::minmax({dot(constrained_[0] - x_, direction), dot(constrained_[1] - x_, direction)});
-  if (!(low < 0.0 && high > 0.0)) return std::nullopt;
+  if (constrained_.size() != 2 || (is_on_hull_ && is_slanted)) return false;
+  const auto [low, high] = range_along(direction);
+  return low < 0.0 && high > 0.0;
+}
+
+std::optional<Point> Star::best_place_along(const Point& direction) const {
+  if (!may_move_along(direction)) return std::nullopt;
+  const auto [low, high] = range_along(direction);
   const auto tangent = [&](double distance) { return tangent_at(along(x_, direction, distance)); };
   return along(x_, direction, maximum(tangent, low, 0.0, high));
 }

@@ -26,14 +26,19 @@ class Star {
   // Padding, too. Exact.
   bool is_upright_at(const Point& x) const;
 
+  // Whether the vertex may leave its place for another on the line through it: strictly between the other
+  // ends of the two constrained edges here, which lie along it. Not on a slanted line that is the convex
+  // border of the whole mesh, which rounded places would leave.
+  bool may_move_along(const Point& direction) const;
+
   // Where tangent_at is largest, up to rounding and stopping short of negligible gains: of all places, or of
-  // those along the direction and strictly between the other ends of the two constrained edges here. Nothing
-  // if there is no such range, or if x would leave a slanted line that is the convex border of the whole
-  // mesh. Pre: a valid mesh.
+  // those along the direction; nothing if it may not move along it. Pre: a valid mesh.
   Point best_place() const;
   std::optional<Point> best_place_along(const Point& direction) const;
 
  private:
+  std::array<double, 2> range_along(const Point& direction) const;
+
   using Link = boost::container::small_vector<LinkEdge, 12>;
 
   Point x_;

@@ -51,10 +51,6 @@ double smallest(const std::array<Point, 3>& corners) {
 
 // --- Oracle: what could still be done, by looking at everything ---
 
-bool has_common_vertex(const Triangle& a, const Triangle& b) {
-  return std::ranges::any_of(a, [&](int v) { return std::ranges::count(b, v) > 0; });
-}
-
 std::string flip_that_helps(const Mesh& mesh, int face) {
   for (const int h : mesh.sides(face)) {
     if (!mesh.is_flippable(Mesh::edge_of(h))) continue;
@@ -79,15 +75,9 @@ bool is_well_placed(const Mesh& mesh, int vertex) {
   return smallest_angle(link, optimal_point(link, x)) <= 1.0002 * smallest_angle(link, x);
 }
 
-std::string move_that_helps(const Mesh& mesh, int face, double angle) {
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    const bool is_near = !mesh.is_padding(f) &&
-                         has_common_vertex(mesh.triangles()[f], mesh.triangles()[face]) &&
-                         smallest(mesh.corners(f)) < tangent_of(1.15 * angle);
-    if (f != face && !is_near) continue;
-    for (const int v : mesh.triangles()[f])
-      if (is_free(mesh, v) && !is_well_placed(mesh, v)) return "move of vertex " + std::to_string(v);
-  }
+std::string move_that_helps(const Mesh& mesh, int face) {
+  for (const int v : mesh.triangles()[face])
+    if (is_free(mesh, v) && !is_well_placed(mesh, v)) return "move of vertex " + std::to_string(v);
   return "";
 }
 
@@ -95,7 +85,7 @@ std::string what_is_left(const Mesh& mesh, double angle) {
   std::string left;
   for (int f = 0; f < mesh.n_faces() && left.empty(); ++f) {
     if (mesh.is_padding(f) || smallest(mesh.corners(f)) >= tangent_of(angle)) continue;
-    left = flip_that_helps(mesh, f) + move_that_helps(mesh, f, angle);
+    left = flip_that_helps(mesh, f) + move_that_helps(mesh, f);
   }
   return left;
 }
@@ -228,20 +218,6 @@ std::vector<Triangle> faces_of(const Mesh& mesh) {
   for (auto& t : faces) std::ranges::rotate(t, std::ranges::min_element(t));
   std::ranges::sort(faces);
   return faces;
-}
-
-MeshData shuffled(MeshData data, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<int> order(data.n_faces());
-  std::iota(order.begin(), order.end(), 0);
-  for (int i = data.n_faces(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-  MeshData result = data;
-  for (int f = 0; f < data.n_faces(); ++f) {
-    result.triangles[f] = data.triangles[order[f]];
-    std::ranges::rotate(result.triangles[f], result.triangles[f].begin() + random.below(3));
-    if (!data.labels.empty()) result.labels[f] = data.labels[order[f]];
-  }
-  return result;
 }
 
 TEST(Angles, DoNotDependOnHowTheMeshIsStored) {

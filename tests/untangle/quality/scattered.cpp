@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -108,6 +109,20 @@ Mesh exchanged(const Mesh& mesh, std::uint64_t seed) {
 
 bool is_free(const Mesh& mesh, int v) {
   return mesh.user_vertex(v) != none && !mesh.is_isolated(v) && !mesh.is_constrained(v) && !mesh.is_fixed(v);
+}
+
+MeshData shuffled(const MeshData& data, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<int> order(data.n_faces());
+  std::iota(order.begin(), order.end(), 0);
+  for (int i = data.n_faces(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+  MeshData result = data;
+  for (int f = 0; f < data.n_faces(); ++f) {
+    result.triangles[f] = data.triangles[order[f]];
+    std::ranges::rotate(result.triangles[f], result.triangles[f].begin() + random.below(3));
+    if (!data.labels.empty()) result.labels[f] = data.labels[order[f]];
+  }
+  return result;
 }
 
 int n_tangled(const Mesh& mesh) {

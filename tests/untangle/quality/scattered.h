@@ -28,6 +28,9 @@ Mesh exchanged(const Mesh& mesh, std::uint64_t seed);
 // Of no constrained edge, not fixed, of the user.
 bool is_free(const Mesh& mesh, int vertex);
 
+// The same mesh with its faces in another order, each from another corner.
+MeshData shuffled(const MeshData& data, std::uint64_t seed);
+
 int n_tangled(const Mesh& mesh);  // inverted and flat faces
 
 // All but free vertices are at the same place, to the last bit.
