@@ -10,5 +10,5 @@ cmake --build --preset release --target kinemesh_cli
 
 scenario=examples/scenarios/airfoil-revolution.toml
 build/release/kinemesh run "$scenario" -o demo --force
-build/release/kinemesh draw demo --step 60 --zoom=-1.6,-1.6,2.6,1.6 -o demo/step_60.svg
+build/release/kinemesh draw demo --step 50 --zoom=-1.6,-1.6,2.6,1.6 -o demo/step_50.svg
 build/release/kinemesh report demo

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 preset=${1:-release}
 
 cmake --preset "$preset"
-cmake --build --preset "$preset" --target kinemesh_cli example_make_tangle
+cmake --build --preset "$preset" --target kinemesh_cli example_make_tangle example_pendulum
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 kinemesh() { build/$preset/kinemesh "$@"; }
@@ -21,11 +21,42 @@ for kind in jitter umbilic; do
   convert "$work/local_$kind.png" -colors 64 -define png:exclude-chunks=date,time PNG8:docs/images/local_$kind.png
 done
 
-kinemesh run examples/scenarios/airfoil-revolution.toml -o "$work/airfoil" -q
+# picture RUN STEP [ARGUMENTS OF draw]
+picture() {
+  kinemesh draw "$work/$1" --step "$2" "${@:3}" -o "$work/$1.png" >"$work/log"
+  convert "$work/$1.png" +dither -colors 32 -define png:exclude-chunks=date,time PNG8:docs/images/gallery_$1.png
+}
 
-for step in $(seq 4 4 100); do
-  kinemesh draw "$work/airfoil" --step "$step" --zoom=-0.9,-1.1,1.9,1.1 --width 480 \
-    -o "$work/frame_$(printf %03d "$step").png" >"$work/log"
+# The colours of `draw` and some between, for all frames.
+convert xc:white xc:'#e6edf5' xc:'#ccd5e0' xc:'#b2becc' xc:'#97a6b8' xc:'#7d8ea3' xc:'#4d5a6b' xc:'#1d2733' \
+  xc:'#ffcf5c' xc:'#cbb578' +append "$work/palette.png"
+
+# animation RUN "STEPS" FILE [ARGUMENTS OF draw]
+animation() {
+  for step in $2; do
+    kinemesh draw "$work/$1" --step "$step" "${@:4}" -o "$work/frame_$(printf %03d "$step").png" >"$work/log"
+  done
+  convert -delay 12 -loop 0 "$work"/frame_*.png +dither -remap "$work/palette.png" -layers optimize "docs/images/$3"
+  rm "$work"/frame_*.png
+}
+
+kinemesh run examples/scenarios/airfoil-revolution.toml -o "$work/airfoil" -q
+animation airfoil "$(seq 4 4 100)" airfoil.gif --zoom=-0.9,-1.1,1.9,1.1 --width 420
+
+for scenario in examples/gallery/*.toml; do
+  kinemesh run "$scenario" -o "$work/$(basename "$scenario" .toml)" -q
 done
-convert -delay 12 -loop 0 "$work"/frame_*.png -resize 420x +dither -colors 12 -layers optimize docs/images/airfoil.gif
+picture foil 195 --zoom=-5.9,-1.5,-2.6,1.2
+picture shuttle 463 --zoom=-0.02,-0.02,2.4,1.02
+picture bubble 50 --zoom=0,-0.02,2.4,1.02
+picture piston 50 --zoom=-0.02,-0.02,1.02,1.02
+picture ice 60
+picture valve 50 --zoom=1.0,-0.01,1.4,0.19
+animation passing "$(seq 2 2 50)" gallery_passing.gif --width 420
+animation tank "$(seq 2 2 50)" gallery_tank.gif --width 420
+animation flap "$(seq 4 4 100)" gallery_flap.gif --width 420
+
+build/$preset/examples/example_pendulum "$work/pendulum.su2"
+kinemesh draw "$work/pendulum.su2" --zoom=0,-0.02,2.4,1.02 -o "$work/pendulum.png"
+convert "$work/pendulum.png" +dither -colors 32 -define png:exclude-chunks=date,time PNG8:docs/images/gallery_pendulum.png
 ls -l docs/images

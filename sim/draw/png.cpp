@@ -69,6 +69,8 @@ std::string png_of(std::string_view svg) {
       CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(width)), static_cast<int>(std::ceil(height))));
   check(cairo_surface_status(surface.get()));
   const Owned<cairo_t> context(cairo_create(surface.get()));
+  cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);  // where the drawing ends within the last row of pixels
+  cairo_paint(context.get());
   const RsvgRectangle page{0.0, 0.0, width, height};
   if (!rsvg_handle_render_document(handle.get(), context.get(), &page, &error)) fail(error);
   std::string png;

@@ -9,6 +9,7 @@ import struct
 import tempfile
 import unittest
 import xml.etree.ElementTree
+import zlib
 from pathlib import Path
 
 from runs import program, run_rotor
@@ -30,6 +31,27 @@ def tangled_grid():
             a = j * (N + 1) + i
             lines += [f"3 {a} {a + 1} {a + N + 2}", f"3 {a} {a + N + 2} {a + N + 1}"]
     return "\n".join(lines) + "\n"
+
+
+def last_row(png):
+    """Bytes of the lowest pixels."""
+    width, height, _, kind = struct.unpack(">IIBB", png[16:26])
+    size = {2: 3, 6: 4}[kind]
+    packed, at = b"", 8
+    while at < len(png):
+        (length,) = struct.unpack(">I", png[at:at + 4])
+        if png[at + 4:at + 8] == b"IDAT":
+            packed += png[at + 8:at + 8 + length]
+        at += length + 12
+    data, row = zlib.decompress(packed), [0] * (width * size)
+    for y in range(height):
+        method, *coded = data[y * (len(row) + 1):(y + 1) * (len(row) + 1)]
+        above, row = row, []
+        for i, byte in enumerate(coded):
+            a, b, c = row[i - size] if i >= size else 0, above[i], above[i - size] if i >= size else 0
+            paeth = min((a, b, c), key=lambda x, p=a + b - c: abs(p - x))
+            row.append((byte + (0, a, b, (a + b) // 2, paeth)[method]) % 256)
+    return row
 
 
 class Drawings(unittest.TestCase):
@@ -74,6 +96,11 @@ class Drawings(unittest.TestCase):
         self.assertEqual(width, 400)
         self.assertAlmostEqual(height, 2 * (192 + 16 + 24), delta=1)
         self.assertGreater(len(png), 3000)
+
+    def test_a_height_that_is_no_whole_number_ends_white(self):
+        png = self.draw("--zoom=-1,-1.003,15,15", "--width", 400, out="f.png")
+        self.assertEqual(struct.unpack(">II", png[16:24]), (400, 441))
+        self.assertEqual(set(last_row(png)), {255})
 
     def test_a_zoom_leaves_out_what_is_beyond(self):
         whole, part = self.draw("--title", "a < b"), self.draw("--zoom", "0,0,4,4")

@@ -16,6 +16,7 @@
 #include "sim/stepper.h"
 #include "tests/core/sample_meshes.h"
 #include "tests/sim/helpers.h"
+#include "tests/sim/shipped.h"
 #include "tests/untangle/quality/delaunay.h"
 
 namespace kinemesh {
@@ -30,8 +31,8 @@ int count_from(const char* variable, int otherwise) {
 }
 
 Scenario shipped(const std::string& name, int vertices) {
-  const auto file = std::filesystem::path(KINEMESH_SOURCE_DIR) / "examples" / "scenarios" / (name + ".toml");
-  return load_scenario(file, std::vector<std::string>{"mesh.vertices=" + std::to_string(vertices)});
+  return load_scenario(test::shipped(name),
+                       std::vector<std::string>{"mesh.vertices=" + std::to_string(vertices)});
 }
 
 StepperOptions options_of(const Scenario& scenario, const std::string& quality) {
@@ -71,11 +72,10 @@ class ShippedQuality : public testing::TestWithParam<Shipped> {};
 INSTANTIATE_TEST_SUITE_P(All, ShippedQuality,
                          testing::Values(Shipped{"swirl", 300}, Shipped{"taylor-green", 300},
                                          Shipped{"twist", 300}, Shipped{"rotor", 300}, Shipped{"jitter", 300},
-                                         Shipped{"pitching-airfoil", 500},
-                                         Shipped{"oscillating-cylinder", 500}, Shipped{"moving-bump", 500},
-                                         Shipped{"airfoil-revolution", 500}),
+                                         Shipped{"layers/pitching", 500}, Shipped{"layers/oscillating", 500},
+                                         Shipped{"layers/bump", 500}, Shipped{"layers/revolution", 500}),
                          [](const auto& shipped) {
-                           std::string name = shipped.param.name;
+                           std::string name = std::filesystem::path(shipped.param.name).filename();
                            std::ranges::replace(name, '-', '_');
                            return name;
                          });
@@ -398,7 +398,7 @@ TEST(SmoothSteps, GoOnFromWhereSmoothingLeftAVertex) {
 // --- angles ---
 
 TEST(AngleSteps, KeepTheAnglesOfTheAirfoil) {
-  Scenario scenario = shipped("airfoil-revolution", 1000);
+  Scenario scenario = shipped("layers/revolution", 1000);
   scenario.repair.quality = "angles";
   scenario.repair.angle = 20.0;
   const auto made = set_up(scenario);
