@@ -26,7 +26,8 @@ requires Is<S, RunSummary>
 void members(Archive& archive, S& totals) {
   archive(totals.steps, totals.time, totals.steps_tangled, totals.inverted, totals.regions,
           totals.region_faces, totals.region_faces_max, totals.replaced, totals.share_mean, totals.share_max,
-          totals.escaped_max, totals.retries, totals.quality_moves, totals.ms);
+          totals.escaped_max, totals.retries, totals.quality_flips, totals.quality_moves,
+          totals.min_angle_deg, totals.ms);
 }
 
 template <class Archive, class S>
@@ -69,7 +70,7 @@ void members(Archive& archive, S& checkpoint) {
 
 namespace {
 
-constexpr binary::Kind kind{"KMCHKPT\n", 3, "checkpoint of kinemesh"};
+constexpr binary::Kind kind{"KMCHKPT\n", 4, "checkpoint of kinemesh"};
 
 constexpr const char* current_name = "checkpoint.bin";
 constexpr const char* previous_name = "checkpoint_prev.bin";

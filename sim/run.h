@@ -55,10 +55,12 @@ struct RunSummary {
   long long inverted = 0;  // inverted and flat faces, summed over the accepted steps like the following
   long long regions = 0;
   long long region_faces = 0;
-  int region_faces_max = 0;     // the largest region
-  long long replaced = 0;       // faces rewritten
-  long long quality_moves = 0;  // vertices that the quality pass moved
-  double share_mean = 0.0;      // of the faces, padding included, that a step rewrote: over all steps
+  int region_faces_max = 0;      // the largest region
+  long long replaced = 0;        // faces rewritten
+  long long quality_flips = 0;   // of edges, by the quality pass
+  long long quality_moves = 0;   // of vertices; one may move several times in a step
+  double min_angle_deg = 180.0;  // of the domain's faces after a step, the smallest of all
+  double share_mean = 0.0;       // of the faces, padding included, that a step rewrote: over all steps
   double share_max = 0.0;
   int escaped_max = 0;  // vertices in any one step
   long long retries = 0;

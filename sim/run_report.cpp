@@ -37,11 +37,13 @@ Json mesh_json(const RunPlan& plan) {
 }
 
 Json totals_json(const RunSummary& s) {
-  return {
-      {"rejected", s.rejected}, {"steps_tangled", s.steps_tangled}, {"inverted", s.inverted},
-      {"regions", s.regions},   {"region_faces", s.region_faces},   {"region_faces_max", s.region_faces_max},
-      {"replaced", s.replaced}, {"share_mean", s.share_mean},       {"share_max", s.share_max},
-      {"retries", s.retries},   {"quality_moves", s.quality_moves}};
+  return {{"rejected", s.rejected},           {"steps_tangled", s.steps_tangled},
+          {"inverted", s.inverted},           {"regions", s.regions},
+          {"region_faces", s.region_faces},   {"region_faces_max", s.region_faces_max},
+          {"replaced", s.replaced},           {"share_mean", s.share_mean},
+          {"share_max", s.share_max},         {"retries", s.retries},
+          {"quality_flips", s.quality_flips}, {"quality_moves", s.quality_moves},
+          {"min_angle_deg", s.min_angle_deg}};
 }
 
 Json times_json(const PhaseTimes& ms) {
@@ -74,7 +76,9 @@ void add_step(RunSummary& summary, const StepRecord& record, int n_faces) {
   summary.replaced += repair.replaced;
   summary.escaped_max = std::max(summary.escaped_max, repair.escaped);
   summary.retries += repair.retries();
+  summary.quality_flips += repair.quality_flips;
   summary.quality_moves += repair.quality_moves;
+  summary.min_angle_deg = std::min(summary.min_angle_deg, record.min_angle_deg);
   summary.ms.move += record.move_ms;
   summary.ms.interior += record.interior_ms;
   summary.ms.detect += repair.detect_ms;

@@ -30,10 +30,14 @@ double steps_left(const StepRecord& record, const RunPlan& plan) {
 std::string describe(const StepRecord& record, const RunPlan& plan, int n_faces) {
   const RepairRecord& repair = record.repair;
   const std::string of = plan.is_adaptive ? "" : fmt::format("/{}", plan.steps);
-  return fmt::format("step {}{}{}  t = {:.5g}  inverted {}  regions {}  replaced {:.2f} %  {:.1f} ms",
+  const std::string quality =
+      repair.quality_flips + repair.quality_moves > 0
+          ? fmt::format("flips {}  moves {}  ", repair.quality_flips, repair.quality_moves)
+          : "";
+  return fmt::format("step {}{}{}  t = {:.5g}  inverted {}  regions {}  replaced {:.2f} %  {}{:.1f} ms",
                      record.step, of, record.accepted ? "" : " rejected", record.time,
                      repair.inverted + repair.degenerate, repair.regions.size(),
-                     100.0 * repair.replaced / std::max(1, n_faces), record.total_ms);
+                     100.0 * repair.replaced / std::max(1, n_faces), quality, record.total_ms);
 }
 
 // Single spaces where double ones take too much room, and what fits.

@@ -114,6 +114,15 @@ std::string word(const std::string& text) {
   return std::ranges::all_of(text, is_usual) ? text : shell_word(text);
 }
 
+void print_quality(const RunSummary& summary) {
+  if (summary.steps == 0) return;
+  print_row("smallest angle", fmt::format("{:.4g} degrees in the worst step", summary.min_angle_deg));
+  if (summary.quality_flips + summary.quality_moves > 0)
+    print_row("for quality", fmt::format("{:.4g} edges flipped, {:.4g} moves of vertices in a step",
+                                         static_cast<double>(summary.quality_flips) / summary.steps,
+                                         static_cast<double>(summary.quality_moves) / summary.steps));
+}
+
 // program: as the user has called it, which need not be on the path.
 void print_summary(const RunSummary& summary, const RemeshProbe& probe, const std::string& program) {
   const std::string planned = summary.plan.is_adaptive ? fmt::format("{} rejected", summary.rejected)
@@ -127,6 +136,7 @@ void print_summary(const RunSummary& summary, const RemeshProbe& probe, const st
                                              100.0 * summary.share_mean, 100.0 * summary.share_max));
   if (summary.escaped_max > 0) print_row("escaped vertices", fmt::format("at most {}", summary.escaped_max));
   if (summary.retries > 0) print_row("retries", summary.retries);
+  print_quality(summary);
   print_times(summary, probe);
   fmt::print("files\n");
   for (const auto& file : summary.files) print_line("  " + file.string());

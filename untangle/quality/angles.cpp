@@ -18,11 +18,11 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 32;             // places or faces that are worth a task
-constexpr int joint_grain = 1;        // and joint moves
-constexpr std::array rings{1, 2, 4};  // of faces around a bad one, whose vertices move together
-constexpr double least_gain = 1e-4;   // of the angle
-constexpr double rounding = 0x1p-44;  // of tangents up to that of 60 degrees, whichever corner comes first
+constexpr int grain = 32;                // places or faces that are worth a task
+constexpr int joint_grain = 1;           // and joint moves
+constexpr std::array rings{1, 2, 4, 8};  // of faces around a bad one, whose vertices move together
+constexpr double least_gain = 1e-4;      // of the angle
+constexpr double rounding = 0x1p-44;     // of tangents up to that of 60 degrees, whichever corner comes first
 
 double tangent_of(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180.0);

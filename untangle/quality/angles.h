@@ -30,11 +30,13 @@ struct AngleCounts {
 // In rounds, each bad face proposes what leaves the largest smallest angle among the faces it touches: the
 // flip of a side, which touches two faces, or the move of a corner to its best place
 // (untangle/quality/star.h), which touches the faces around it. In a round in which no bad face has a
-// proposal, each tries to move the vertices near it together, those of one ring of faces, or else, if no worse
-// face is among them, of two, or of four (untangle/quality/joint_star.h). A proposal has to make the smallest angle of the faces it touches
-// larger, by 0.01 percent at least, and leave them upright, exactly. Of proposals that touch a common face that with the smaller key is done: the smallest
-// angle that is touched, then the users' numbers of what it moves or flips. Greedily in the order of keys;
-// the same come out if again and again each goes ahead whose key is smallest among those it shares faces with
+// proposal, each tries to move all vertices near it together (untangle/quality/joint_star.h): those of the
+// faces around it, or else, as long as no worse face is among those touched, of two, four, eight rings of
+// faces. A proposal has to make the smallest angle of the faces it touches larger, by 0.01 percent at least,
+// and leave them upright, exactly. Of proposals that touch a common face that with the smaller key is done:
+// the smallest angle that is touched, then the users' numbers of what it moves or flips, or of the face it is
+// for. Greedily in the order of keys; the same come out if again and again each goes ahead whose key is
+// smallest among those it shares faces with
 // [Blelloch 2012], as several machines with a part of the mesh each can find out. Ends when no proposal is
 // left.
 //
@@ -44,7 +46,8 @@ struct AngleCounts {
 // changes by a power of two. Padding faces have no angle here.
 //
 // Takes 5 bytes a face and 5 a vertex when made. Cost of a run: of the minima that are outdated, of 64 faces
-// for each bad one at most, and some 10 microseconds for each move that is thought of.
+// for each bad one at most, and some 10 microseconds for each move that is thought of, a
+// millisecond for a joint one.
 class AngleUpkeep : public QualityPass {
  public:
   // For meshes of this one's size. Throws InputError for options out of range or `held` of another size.
