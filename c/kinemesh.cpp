@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -14,6 +15,7 @@
 #include "core/io/mesh_io.h"
 #include "core/orient.h"
 #include "core/validate.h"
+#include "sim/setup.h"
 #include "sim/stepper.h"
 
 struct kinemesh_mesh {
@@ -22,6 +24,7 @@ struct kinemesh_mesh {
 
 struct kinemesh_stepper {
   kinemesh::Stepper stepper;
+  std::optional<kinemesh::Motion> motion = std::nullopt;  // of a scenario
 };
 
 namespace {
@@ -135,7 +138,15 @@ StepperOptions stepper_options(const kinemesh_options& options) {
   return {.strategy = options.strategy ? options.strategy : "global",
           .allow_escaped = options.allow_escaped != 0,
           .retain = options.retain != 0,
-          .quality = options.quality ? options.quality : "none"};
+          .quality = options.quality ? options.quality : "none",
+          .angle = options.angle};
+}
+
+// So that step_border lets the interior follow as advance does.
+StepperOptions stepper_options(const Scenario& scenario, const Motion& motion) {
+  StepperOptions options = stepper_options(scenario.repair, motion);
+  if (motion.interior().follow != Follow::None) options.interior = motion.interior();
+  return options;
 }
 
 kinemesh_step c_record(const StepRecord& record) {
@@ -149,6 +160,7 @@ kinemesh_step c_record(const StepRecord& record) {
           .regions = static_cast<std::int32_t>(repair.regions.size()),
           .replaced = repair.replaced,
           .flips = repair.quality_flips,
+          .moves = repair.quality_moves,
           .min_angle_deg = record.min_angle_deg,
           .min_area = record.min_area};
 }
@@ -194,13 +206,22 @@ void show(const StepChanges& changes, kinemesh_observer observer, void* user) {
   const std::vector<FlatPatch> flat(changes.patches.begin(), changes.patches.end());
   std::vector<kinemesh_patch> patches;
   for (const auto& patch : flat) patches.push_back(patch.shown());
+  std::vector<std::int32_t> moved;
+  std::vector<double> from;
+  for (const auto& [vertex, there] : changes.moved_by_quality) {
+    moved.push_back(vertex);
+    from.insert(from.end(), {there.x, there.y});
+  }
   const kinemesh_changes shown{.step = changes.step,
                                .time = changes.time,
                                .dt = changes.dt,
                                .n_patches = static_cast<std::int32_t>(patches.size()),
                                .patches = patches.data(),
                                .xy_before = before.data(),
-                               .xy_after = after.data()};
+                               .xy_after = after.data(),
+                               .n_moved = static_cast<std::int32_t>(moved.size()),
+                               .moved = moved.data(),
+                               .xy_moved = from.data()};
   if (const int answer = observer(&shown, user))
     throw Vetoed("an observer returned " + std::to_string(answer) + " in step " +
                  std::to_string(changes.step));
@@ -284,7 +305,8 @@ void kinemesh_mesh_destroy(kinemesh_mesh* mesh) {
 }
 
 kinemesh_options kinemesh_default_options(void) {
-  return {.strategy = "global", .quality = "none", .frame = 0.25, .allow_escaped = 0, .retain = 0};
+  return {
+      .strategy = "global", .quality = "none", .angle = 25.0, .frame = 0.25, .allow_escaped = 0, .retain = 0};
 }
 
 kinemesh_status kinemesh_stepper_create(const kinemesh_mesh* mesh, const kinemesh_options* options,
@@ -294,6 +316,18 @@ kinemesh_status kinemesh_stepper_create(const kinemesh_mesh* mesh, const kinemes
     const kinemesh_options chosen = options ? *options : kinemesh_default_options();
     result = new kinemesh_stepper{
         Stepper(valid_mesh(required(mesh, "mesh")->data, chosen.frame), stepper_options(chosen))};
+  });
+}
+
+kinemesh_status kinemesh_stepper_create_scenario(const kinemesh_mesh* mesh, const char* scenario,
+                                                 double frame, kinemesh_stepper** stepper) {
+  return guarded([&] {
+    auto& result = cleared(stepper, "stepper");
+    required(mesh, "mesh");
+    const Scenario parsed = parse_motions(required(scenario, "scenario"), "scenario");
+    SetUp made = set_up(parsed, valid_mesh(mesh->data, frame));
+    const StepperOptions options = stepper_options(parsed, made.motion);
+    result = new kinemesh_stepper{Stepper(std::move(made.mesh), options), std::move(made.motion)};
   });
 }
 
@@ -316,6 +350,14 @@ kinemesh_status kinemesh_stepper_step_border(kinemesh_stepper* stepper, int32_t 
     const std::size_t count = size(n, "n");
     const std::span<const int> named(count > 0 ? required(vertices, "vertices") : nullptr, count);
     accept(s.step_border(named, points(count > 0 ? required(xy, "xy") : nullptr, count), dt), record);
+  });
+}
+
+kinemesh_status kinemesh_stepper_advance(kinemesh_stepper* stepper, double dt, kinemesh_step* record) {
+  return guarded([&] {
+    auto& [s, motion] = *required(stepper, "stepper");
+    if (!motion) throw InputError("a stepper of kinemesh_stepper_create_scenario expected");
+    accept(s.step(*motion, dt), record);
   });
 }
 

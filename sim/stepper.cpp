@@ -117,6 +117,18 @@ Stepper::Stepper(Mesh&& mesh, const StepperOptions& options, double time, int st
   if (std::isfinite(max_region_share_)) tracker_ = std::make_unique<ChangeTracker>(mesh_);
 }
 
+// step(end_time), from where the times of the steps before add up to.
+template <class Step>
+StepOutcome Stepper::step_on(double dt, const Step& step) {
+  require_forward(dt);
+  const double added = time_rest_ + dt, end = time_ + added;
+  const double of_added = end - time_,
+               rest = (time_ - (end - of_added)) + (added - of_added);  // Knuth's two-sum
+  StepOutcome outcome = step(end);
+  if (outcome) time_rest_ = rest;
+  return outcome;
+}
+
 // `move` writes the positions at end_time and names what made one of them not finite. On an exception nothing
 // is known of the faces.
 template <class Move>
@@ -144,6 +156,7 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   if (outcome.defect) add_time(*outcome.defect, end_time);
   if (outcome) {
     time_ = end_time;
+    time_rest_ = 0.0;
     ++step_;
     if (has_followed_) following_->accept();
     outcome.record.accepted = true;
@@ -272,7 +285,7 @@ void Stepper::refresh_positions() {
 }
 
 StepOutcome Stepper::step(std::span<const Point> positions, double dt) {
-  return step_by(positions, time_ + dt, dt);
+  return step_on(dt, [&](double end) { return step_by(positions, end, dt); });
 }
 
 StepOutcome Stepper::step_to(std::span<const Point> positions, double end_time) {
@@ -294,7 +307,7 @@ StepOutcome Stepper::step_by(std::span<const Point> positions, double end_time, 
 }
 
 StepOutcome Stepper::step(const Motion& motion, double dt) {
-  return step_by(motion, time_ + dt, dt);
+  return step_on(dt, [&](double end) { return step_by(motion, end, dt); });
 }
 
 StepOutcome Stepper::step_to(const Motion& motion, double end_time) {
@@ -345,7 +358,7 @@ std::vector<Point> Stepper::moved(const Motion& motion, double end_time) {
 }
 
 StepOutcome Stepper::step_border(std::span<const int> vertices, std::span<const Point> positions, double dt) {
-  return step_border_by(vertices, positions, time_ + dt, dt);
+  return step_on(dt, [&](double end) { return step_border_by(vertices, positions, end, dt); });
 }
 
 StepOutcome Stepper::step_border_to(std::span<const int> vertices, std::span<const Point> positions,

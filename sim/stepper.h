@@ -82,6 +82,9 @@ class Stepper {
                    int steps_done = 0)
       : Stepper(Mesh(mesh), options, time, steps_done) {}
 
+  // Steps by dt add up without rounding but for that of the sum: time() is n dt after n of them, and the same bits
+  // after 2 n of dt / 2.
+  //
   // To given positions, one per user's vertex in the user's order; with quality "smooth" or "angles" or strategy
   // "optimize" vertices may be elsewhere afterwards. Throws InputError for another number of them or a dt that is negative
   // or not finite; mesh and time are then as they were, as after any other exception.
@@ -132,6 +135,8 @@ class Stepper {
   std::span<const int> flipped_faces() const { return quality_->flipped_faces(); }
 
  private:
+  template <class Step>
+  StepOutcome step_on(double dt, const Step& step);
   template <class Move>
   StepOutcome advance(double end_time, double dt, const Move& move);
   StepOutcome step_by(const Motion& motion, double end_time, double dt);
@@ -170,6 +175,7 @@ class Stepper {
   std::vector<StepObserver> observers_;
   std::unique_ptr<ChangeTracker> tracker_;  // with observers or a limit only
   double time_;
+  double time_rest_ = 0.0;  // what rounding has taken from time_
   int step_;
 };
 

@@ -248,6 +248,24 @@ TEST(Scenario, IsReadFromItsFileAndItsMeshFoundBesideIt) {
 }
 
 // Written out, read back and written out again: the same text, so the same run.
+TEST(Scenario, OfAMeshThatIsThereSaysWhatMovesAndNoMore) {
+  const std::string body = "[[body]]\non = 'marker:hole'\n";
+  const Scenario scenario = parse_motions(body + "[border]\ndefault = 'slide'\n", "mine");
+  ASSERT_EQ(scenario.bodies.size(), 1u);
+  EXPECT_EQ(scenario.interior.options.follow, Follow::Harmonic);
+  EXPECT_EQ(scenario.repair.quality, "angles");
+  EXPECT_EQ(scenario.border.conditions.otherwise, BorderCondition::Slide);
+  EXPECT_TRUE(scenario.mesh.file.empty() && scenario.mesh.shape.empty());
+  for (const std::string table : {"mesh", "time", "output"}) {
+    try {
+      parse_motions(body + "[" + table + "]\n", "mine");
+      ADD_FAILURE() << table;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::StartsWith("mine:3: " + table + ": "));
+    }
+  }
+}
+
 TEST(Scenario, SurvivesBeingWrittenOut) {
   const std::string all =
       "[mesh]\nshape = 'umbilic'\nk = 3\nvertices = 77\nseed = 9\nframe = 0.1\n"
