@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -25,6 +26,7 @@ struct kinemesh_mesh {
 struct kinemesh_stepper {
   kinemesh::Stepper stepper;
   std::optional<kinemesh::Motion> motion = std::nullopt;  // of a scenario
+  double time_rest = 0.0;                                 // what rounding has taken from the stepper's time
 };
 
 namespace {
@@ -165,9 +167,18 @@ kinemesh_step c_record(const StepRecord& record) {
           .min_area = record.min_area};
 }
 
-void accept(const StepOutcome& outcome, kinemesh_step* record) {
+// step_to(end time), dt after all steps before. The lengths of steps are added up as if without rounding (Knuth's
+// two-sum), so that two of dt / 2 end when one of dt does.
+template <class StepTo>
+void advance(kinemesh_stepper& stepper, double dt, kinemesh_step* record, const StepTo& step_to) {
+  const double time = stepper.stepper.time(), added = stepper.time_rest + dt, end = time + added;
+  const double added_there = end - time;
+  const StepOutcome outcome = step_to(dt < 0.0 ? std::numeric_limits<double>::quiet_NaN() : end);
   if (!outcome) throw NoValidMesh(outcome.defect->message());
-  if (record) *record = c_record(outcome.record);
+  stepper.time_rest = (time - (end - added_there)) + (added - added_there);
+  if (!record) return;
+  *record = c_record(outcome.record);
+  record->dt = dt;
 }
 
 // A patch as the arrays C is shown.
@@ -339,7 +350,8 @@ kinemesh_status kinemesh_stepper_step(kinemesh_stepper* stepper, const double* x
                                       kinemesh_step* record) {
   return guarded([&] {
     auto& s = required(stepper, "stepper")->stepper;
-    accept(s.step(points(required(xy, "xy"), s.mesh().n_user_vertices()), dt), record);
+    const auto to = points(required(xy, "xy"), s.mesh().n_user_vertices());
+    advance(*stepper, dt, record, [&](double end) { return s.step_to(to, end); });
   });
 }
 
@@ -349,15 +361,16 @@ kinemesh_status kinemesh_stepper_step_border(kinemesh_stepper* stepper, int32_t 
     auto& s = required(stepper, "stepper")->stepper;
     const std::size_t count = size(n, "n");
     const std::span<const int> named(count > 0 ? required(vertices, "vertices") : nullptr, count);
-    accept(s.step_border(named, points(count > 0 ? required(xy, "xy") : nullptr, count), dt), record);
+    const auto to = points(count > 0 ? required(xy, "xy") : nullptr, count);
+    advance(*stepper, dt, record, [&](double end) { return s.step_border_to(named, to, end); });
   });
 }
 
 kinemesh_status kinemesh_stepper_advance(kinemesh_stepper* stepper, double dt, kinemesh_step* record) {
   return guarded([&] {
-    auto& [s, motion] = *required(stepper, "stepper");
+    const auto& motion = required(stepper, "stepper")->motion;
     if (!motion) throw InputError("a stepper of kinemesh_stepper_create_scenario expected");
-    accept(s.step(*motion, dt), record);
+    advance(*stepper, dt, record, [&](double end) { return stepper->stepper.step_to(*motion, end); });
   });
 }
 
@@ -368,7 +381,10 @@ double* kinemesh_stepper_positions(kinemesh_stepper* stepper) {
 }
 
 kinemesh_status kinemesh_stepper_repair(kinemesh_stepper* stepper, double dt, kinemesh_step* record) {
-  return guarded([&] { accept(required(stepper, "stepper")->stepper.repair(dt), record); });
+  return guarded([&] {
+    auto& s = required(stepper, "stepper")->stepper;
+    advance(*stepper, dt, record, [&](double end) { return s.step_to(s.positions(), end); });
+  });
 }
 
 int32_t kinemesh_stepper_n_vertices(const kinemesh_stepper* stepper) {

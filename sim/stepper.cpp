@@ -88,6 +88,21 @@ class ChangesInPlace {
   ChangeTracker* tracker_;
 };
 
+// Marks vertices for the length of a scope.
+class Named {
+ public:
+  Named(std::vector<char>& marks, const Mesh& mesh, std::span<const int> vertices) : marks_(marks) {
+    marks_.assign(mesh.n_vertices(), 0);
+    for (const int user : vertices) marks_[mesh.vertex_of_user(user)] = 1;
+  }
+  ~Named() { marks_.clear(); }
+  Named(const Named&) = delete;
+  Named& operator=(const Named&) = delete;
+
+ private:
+  std::vector<char>& marks_;
+};
+
 // The border and what is fixed is known, all else follows.
 std::vector<Role> border_roles(const Mesh& mesh) {
   std::vector<Role> roles(mesh.n_vertices(), Role::Free);
@@ -117,18 +132,6 @@ Stepper::Stepper(Mesh&& mesh, const StepperOptions& options, double time, int st
   if (std::isfinite(max_region_share_)) tracker_ = std::make_unique<ChangeTracker>(mesh_);
 }
 
-// step(end_time), from where the times of the steps before add up to.
-template <class Step>
-StepOutcome Stepper::step_on(double dt, const Step& step) {
-  require_forward(dt);
-  const double added = time_rest_ + dt, end = time_ + added;
-  const double of_added = end - time_,
-               rest = (time_ - (end - of_added)) + (added - of_added);  // Knuth's two-sum
-  StepOutcome outcome = step(end);
-  if (outcome) time_rest_ = rest;
-  return outcome;
-}
-
 // `move` writes the positions at end_time and names what made one of them not finite. On an exception nothing
 // is known of the faces.
 template <class Move>
@@ -156,7 +159,6 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   if (outcome.defect) add_time(*outcome.defect, end_time);
   if (outcome) {
     time_ = end_time;
-    time_rest_ = 0.0;
     ++step_;
     if (has_followed_) following_->accept();
     outcome.record.accepted = true;
@@ -257,8 +259,8 @@ void Stepper::measure(StepOutcome& outcome) {
 void Stepper::improve(RepairRecord& record) {
   const Stopwatch clock;
   const auto before = step_ == 0 ? std::span<const Point>() : std::span<const Point>(next_);
-  const QualityCounts done =
-      quality_->improve(mesh_, {.before = before, .replaced = record.regions, .minima = &minima_});
+  const QualityCounts done = quality_->improve(
+      mesh_, {.before = before, .replaced = record.regions, .minima = &minima_, .stays = named_});
   record.quality_flips = done.flips;
   record.quality_moves = done.moves;
   record.quality_ms = clock.milliseconds();
@@ -285,7 +287,7 @@ void Stepper::refresh_positions() {
 }
 
 StepOutcome Stepper::step(std::span<const Point> positions, double dt) {
-  return step_on(dt, [&](double end) { return step_by(positions, end, dt); });
+  return step_by(positions, time_ + dt, dt);
 }
 
 StepOutcome Stepper::step_to(std::span<const Point> positions, double end_time) {
@@ -307,7 +309,7 @@ StepOutcome Stepper::step_by(std::span<const Point> positions, double end_time, 
 }
 
 StepOutcome Stepper::step(const Motion& motion, double dt) {
-  return step_on(dt, [&](double end) { return step_by(motion, end, dt); });
+  return step_by(motion, time_ + dt, dt);
 }
 
 StepOutcome Stepper::step_to(const Motion& motion, double end_time) {
@@ -358,7 +360,7 @@ std::vector<Point> Stepper::moved(const Motion& motion, double end_time) {
 }
 
 StepOutcome Stepper::step_border(std::span<const int> vertices, std::span<const Point> positions, double dt) {
-  return step_on(dt, [&](double end) { return step_border_by(vertices, positions, end, dt); });
+  return step_border_by(vertices, positions, time_ + dt, dt);
 }
 
 StepOutcome Stepper::step_border_to(std::span<const int> vertices, std::span<const Point> positions,
@@ -382,6 +384,7 @@ StepOutcome Stepper::step_border_by(std::span<const int> vertices, std::span<con
     if (std::exchange(is_given[user], 1)) throw InputError("vertex " + std::to_string(user) + " comes twice");
     roles[mesh_.vertex_of_user(user)] = Role::Known;
   }
+  const Named named(named_, mesh_, vertices);
   return advance(end_time, dt, [&](std::span<Point> next) {
     std::ranges::copy(mesh_.positions(), next.begin());
     for (std::size_t i = 0; i < vertices.size(); ++i) next[mesh_.vertex_of_user(vertices[i])] = positions[i];

@@ -82,9 +82,6 @@ class Stepper {
                    int steps_done = 0)
       : Stepper(Mesh(mesh), options, time, steps_done) {}
 
-  // Steps by dt add up without rounding but for that of the sum: time() is n dt after n of them, and the same bits
-  // after 2 n of dt / 2.
-  //
   // To given positions, one per user's vertex in the user's order; with quality "smooth" or "angles" or strategy
   // "optimize" vertices may be elsewhere afterwards. Throws InputError for another number of them or a dt that is negative
   // or not finite; mesh and time are then as they were, as after any other exception.
@@ -99,7 +96,7 @@ class Stepper {
 
   // To given positions of the border, or of some of it, one for each of `vertices` (the user's numbers); what of the
   // border is not named stays, and so do fixed vertices that are not named; the interior follows (options.interior).
-  // Vertices of the interior may be named, too, and are then where they are asked to be. Throws InputError for
+  // Vertices of the interior may be named, too, and are then where they are asked to be, whatever the quality. Throws InputError for
   // numbers that are no vertex's or come twice, other counts, and an interior that is told to follow nothing.
   [[nodiscard]] StepOutcome step_border(std::span<const int> vertices, std::span<const Point> positions,
                                         double dt);
@@ -135,8 +132,6 @@ class Stepper {
   std::span<const int> flipped_faces() const { return quality_->flipped_faces(); }
 
  private:
-  template <class Step>
-  StepOutcome step_on(double dt, const Step& step);
   template <class Move>
   StepOutcome advance(double end_time, double dt, const Move& move);
   StepOutcome step_by(const Motion& motion, double end_time, double dt);
@@ -171,11 +166,11 @@ class Stepper {
   FollowingState start_;                // of its first step
   double interior_ms_ = 0.0;            // of the step at hand
   bool has_followed_ = false;           // likewise
-  std::vector<Point> positions_;        // what positions() hands out; empty before
+  std::vector<char> named_;       // per vertex: by step_border, and so not quality's; empty in other steps
+  std::vector<Point> positions_;  // what positions() hands out; empty before
   std::vector<StepObserver> observers_;
   std::unique_ptr<ChangeTracker> tracker_;  // with observers or a limit only
   double time_;
-  double time_rest_ = 0.0;  // what rounding has taken from time_
   int step_;
 };
 

@@ -77,7 +77,7 @@ static int watch(const kinemesh_changes* changes, void* user) {
 static void takes_steps_and_tells_of_them(void) {
   kinemesh_stepper* stepper = stepper_on(square(), NULL);
   double xy[2 * n_vertices], *own;
-  int32_t now[3 * n_faces];
+  int32_t now[3 * n_faces], n;
   kinemesh_step record;
   observed seen = {{0}, 0, 0, 0};
   memcpy(seen.faces, triangles, sizeof triangles);
@@ -101,6 +101,12 @@ static void takes_steps_and_tells_of_them(void) {
   CHECK(seen.calls == 2 && seen.patches >= 2);
   CHECK(kinemesh_stepper_get(stepper, NULL, now, NULL) == KINEMESH_OK);
   CHECK(memcmp(now, seen.faces, sizeof now) == 0);
+
+  for (n = 0; n < 100; ++n) { /* the naive sum is off by more than its last bit */
+    CHECK(kinemesh_stepper_repair(stepper, 0.1, &record) == KINEMESH_OK && record.dt == 0.1);
+  }
+  CHECK(kinemesh_stepper_time(stepper) == 10.5);
+  CHECK(kinemesh_stepper_repair(stepper, -1e-300, NULL) == KINEMESH_BAD_INPUT);
   kinemesh_stepper_destroy(stepper);
 }
 

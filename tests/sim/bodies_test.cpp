@@ -272,5 +272,24 @@ TEST(StepBorder, MovesTheBorderAndTheInteriorFollows) {
   EXPECT_THROW((void)stepper.step_border(hole, std::vector<Point>(2), 0.1), InputError);
 }
 
+// Two neighbours inside, brought close: a face that angles and smooth would widen by moving them.
+TEST(StepBorder, QualityLeavesNamedVerticesOfTheInteriorAlone) {
+  for (const char* quality : {"angles", "smooth"}) {
+    Stepper stepper(build_mesh(test::grid(8), {.frame = 0.25, .fixed = {}}), {.quality = quality});
+    const std::vector<int> named{40, 41};
+    const std::vector<Point> places{stepper.mesh().user_positions()[40] + Point(0.055, 0.0),
+                                    stepper.mesh().user_positions()[41] - Point(0.055, 0.0)};
+    const auto outcome = stepper.step_border(named, places, 0.1);
+    ASSERT_TRUE(outcome) << outcome.defect->message();
+    EXPECT_EQ(stepper.mesh().user_positions()[40], places[0]) << quality;
+    EXPECT_EQ(stepper.mesh().user_positions()[41], places[1]) << quality;
+    EXPECT_GT(outcome.record.repair.quality_moves, 0) << quality;
+    ASSERT_TRUE(stepper.step(stepper.mesh().user_positions(), 0.1));  // names none
+    if (quality == std::string("smooth")) {
+      EXPECT_NE(stepper.mesh().user_positions()[41], places[1]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinemesh

@@ -43,24 +43,6 @@ Defect failed_step(Stepper& stepper, std::span<const Point> next) {
   return outcome.defect.value_or(Defect{});
 }
 
-// 0.1 + 0.1 + ... is rounded at every step.
-TEST(Stepper, AddsTimesUpAsIfWithoutRounding) {
-  Stepper whole = on(grid(2)), halved = on(grid(2));
-  const auto still = positions_of(whole);
-  double naive = 0.0;
-  for (int n = 1; n <= 1000; ++n) {
-    ASSERT_TRUE(whole.step(still, 0.1));
-    for (int half = 0; half < 2; ++half) ASSERT_TRUE(halved.step(still, 0.05));
-    EXPECT_EQ(whole.time(), n * 0.1);
-    EXPECT_EQ(halved.time(), n * 0.1);
-    naive += 0.1;
-  }
-  EXPECT_NE(naive, 100.0);
-  ASSERT_TRUE(whole.step_to(still, 101.0));  // nothing is left of what was rounded before
-  ASSERT_TRUE(whole.step(still, 1.0));
-  EXPECT_EQ(whole.time(), 102.0);
-}
-
 TEST(Stepper, TakesAndReturnsPositionsInTheUsersOrder) {
   Stepper stepper = on(grid(6));
   auto next = positions_of(stepper);

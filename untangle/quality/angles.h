@@ -104,6 +104,7 @@ class AngleUpkeep : public QualityPass {
 
   AngleOptions options_;
   VertexFreedom freedom_;
+  std::span<const char> stays_;    // in this call, see QualityInputs
   double wanted_, nearly_wanted_;  // tangents
   FaceMinima own_minima_;
 
