@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -14,6 +16,7 @@
 #include "core/io/mesh_io.h"
 #include "core/orient.h"
 #include "core/validate.h"
+#include "sim/setup.h"
 #include "sim/stepper.h"
 
 struct kinemesh_mesh {
@@ -22,6 +25,8 @@ struct kinemesh_mesh {
 
 struct kinemesh_stepper {
   kinemesh::Stepper stepper;
+  std::optional<kinemesh::Motion> motion = std::nullopt;  // of a scenario
+  double time_rest = 0.0;                                 // what rounding has taken from the stepper's time
 };
 
 namespace {
@@ -135,7 +140,15 @@ StepperOptions stepper_options(const kinemesh_options& options) {
   return {.strategy = options.strategy ? options.strategy : "global",
           .allow_escaped = options.allow_escaped != 0,
           .retain = options.retain != 0,
-          .quality = options.quality ? options.quality : "none"};
+          .quality = options.quality ? options.quality : "none",
+          .angle = options.angle};
+}
+
+// So that step_border lets the interior follow as advance does.
+StepperOptions stepper_options(const Scenario& scenario, const Motion& motion) {
+  StepperOptions options = stepper_options(scenario.repair, motion);
+  if (motion.interior().follow != Follow::None) options.interior = motion.interior();
+  return options;
 }
 
 kinemesh_step c_record(const StepRecord& record) {
@@ -149,13 +162,23 @@ kinemesh_step c_record(const StepRecord& record) {
           .regions = static_cast<std::int32_t>(repair.regions.size()),
           .replaced = repair.replaced,
           .flips = repair.quality_flips,
+          .moves = repair.quality_moves,
           .min_angle_deg = record.min_angle_deg,
           .min_area = record.min_area};
 }
 
-void accept(const StepOutcome& outcome, kinemesh_step* record) {
+// step_to(end time), dt after all steps before. The lengths of steps are added up as if without rounding (Knuth's
+// two-sum), so that two of dt / 2 end when one of dt does.
+template <class StepTo>
+void advance(kinemesh_stepper& stepper, double dt, kinemesh_step* record, const StepTo& step_to) {
+  const double time = stepper.stepper.time(), added = stepper.time_rest + dt, end = time + added;
+  const double added_there = end - time;
+  const StepOutcome outcome = step_to(dt < 0.0 ? std::numeric_limits<double>::quiet_NaN() : end);
   if (!outcome) throw NoValidMesh(outcome.defect->message());
-  if (record) *record = c_record(outcome.record);
+  stepper.time_rest = (time - (end - added_there)) + (added - added_there);
+  if (!record) return;
+  *record = c_record(outcome.record);
+  record->dt = dt;
 }
 
 // A patch as the arrays C is shown.
@@ -194,13 +217,22 @@ void show(const StepChanges& changes, kinemesh_observer observer, void* user) {
   const std::vector<FlatPatch> flat(changes.patches.begin(), changes.patches.end());
   std::vector<kinemesh_patch> patches;
   for (const auto& patch : flat) patches.push_back(patch.shown());
+  std::vector<std::int32_t> moved;
+  std::vector<double> from;
+  for (const auto& [vertex, there] : changes.moved_by_quality) {
+    moved.push_back(vertex);
+    from.insert(from.end(), {there.x, there.y});
+  }
   const kinemesh_changes shown{.step = changes.step,
                                .time = changes.time,
                                .dt = changes.dt,
                                .n_patches = static_cast<std::int32_t>(patches.size()),
                                .patches = patches.data(),
                                .xy_before = before.data(),
-                               .xy_after = after.data()};
+                               .xy_after = after.data(),
+                               .n_moved = static_cast<std::int32_t>(moved.size()),
+                               .moved = moved.data(),
+                               .xy_moved = from.data()};
   if (const int answer = observer(&shown, user))
     throw Vetoed("an observer returned " + std::to_string(answer) + " in step " +
                  std::to_string(changes.step));
@@ -284,7 +316,8 @@ void kinemesh_mesh_destroy(kinemesh_mesh* mesh) {
 }
 
 kinemesh_options kinemesh_default_options(void) {
-  return {.strategy = "global", .quality = "none", .frame = 0.25, .allow_escaped = 0, .retain = 0};
+  return {
+      .strategy = "global", .quality = "none", .angle = 25.0, .frame = 0.25, .allow_escaped = 0, .retain = 0};
 }
 
 kinemesh_status kinemesh_stepper_create(const kinemesh_mesh* mesh, const kinemesh_options* options,
@@ -297,6 +330,18 @@ kinemesh_status kinemesh_stepper_create(const kinemesh_mesh* mesh, const kinemes
   });
 }
 
+kinemesh_status kinemesh_stepper_create_scenario(const kinemesh_mesh* mesh, const char* scenario,
+                                                 double frame, kinemesh_stepper** stepper) {
+  return guarded([&] {
+    auto& result = cleared(stepper, "stepper");
+    required(mesh, "mesh");
+    const Scenario parsed = parse_motions(required(scenario, "scenario"), "scenario");
+    SetUp made = set_up(parsed, valid_mesh(mesh->data, frame));
+    const StepperOptions options = stepper_options(parsed, made.motion);
+    result = new kinemesh_stepper{Stepper(std::move(made.mesh), options), std::move(made.motion)};
+  });
+}
+
 void kinemesh_stepper_destroy(kinemesh_stepper* stepper) {
   delete stepper;
 }
@@ -305,7 +350,8 @@ kinemesh_status kinemesh_stepper_step(kinemesh_stepper* stepper, const double* x
                                       kinemesh_step* record) {
   return guarded([&] {
     auto& s = required(stepper, "stepper")->stepper;
-    accept(s.step(points(required(xy, "xy"), s.mesh().n_user_vertices()), dt), record);
+    const auto to = points(required(xy, "xy"), s.mesh().n_user_vertices());
+    advance(*stepper, dt, record, [&](double end) { return s.step_to(to, end); });
   });
 }
 
@@ -315,7 +361,16 @@ kinemesh_status kinemesh_stepper_step_border(kinemesh_stepper* stepper, int32_t 
     auto& s = required(stepper, "stepper")->stepper;
     const std::size_t count = size(n, "n");
     const std::span<const int> named(count > 0 ? required(vertices, "vertices") : nullptr, count);
-    accept(s.step_border(named, points(count > 0 ? required(xy, "xy") : nullptr, count), dt), record);
+    const auto to = points(count > 0 ? required(xy, "xy") : nullptr, count);
+    advance(*stepper, dt, record, [&](double end) { return s.step_border_to(named, to, end); });
+  });
+}
+
+kinemesh_status kinemesh_stepper_advance(kinemesh_stepper* stepper, double dt, kinemesh_step* record) {
+  return guarded([&] {
+    const auto& motion = required(stepper, "stepper")->motion;
+    if (!motion) throw InputError("a stepper of kinemesh_stepper_create_scenario expected");
+    advance(*stepper, dt, record, [&](double end) { return stepper->stepper.step_to(*motion, end); });
   });
 }
 
@@ -326,7 +381,10 @@ double* kinemesh_stepper_positions(kinemesh_stepper* stepper) {
 }
 
 kinemesh_status kinemesh_stepper_repair(kinemesh_stepper* stepper, double dt, kinemesh_step* record) {
-  return guarded([&] { accept(required(stepper, "stepper")->stepper.repair(dt), record); });
+  return guarded([&] {
+    auto& s = required(stepper, "stepper")->stepper;
+    advance(*stepper, dt, record, [&](double end) { return s.step_to(s.positions(), end); });
+  });
 }
 
 int32_t kinemesh_stepper_n_vertices(const kinemesh_stepper* stepper) {

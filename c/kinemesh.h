@@ -80,19 +80,28 @@ typedef struct kinemesh_options {
   const char* strategy; /* how a tangled mesh is repaired; NULL: "global" */
   const char*
       quality;  /* what is done for the shape of the faces after it: "none", "delaunay", "smooth", "angles" */
+  double angle; /* degrees, above 0 and below 60: what "angles" keeps angles above, where it can */
   double frame; /* margin of padding around the domain, in diagonals of its bounding box; 0: its convex hull
                    must not move */
   int32_t allow_escaped; /* not 0: vertices may end on the wrong side of a border or interface */
   int32_t retain;        /* not 0: keep upright faces of a region that need not be replaced */
 } kinemesh_options;
 
-/* global, none, frame 0.25, 0, 0. */
+/* global, none, 25 degrees, frame 0.25, 0, 0. */
 KINEMESH_API kinemesh_options kinemesh_default_options(void);
 
 /* The mesh is copied; it has to be valid (kinemesh_mesh_untangle). options: NULL for the default ones. */
 KINEMESH_API kinemesh_status kinemesh_stepper_create(const kinemesh_mesh* mesh,
                                                      const kinemesh_options* options,
                                                      kinemesh_stepper** stepper);
+
+/* For bodies whose motion is known: a stepper, and what moves its mesh. scenario is TOML, the tables [[body]],
+ * [[motion]], [interior], [border] and [repair] as docs/scenarios.md has them, with their defaults; files it
+ * names are relative to the current folder. Other tables are refused: the mesh is this one, frame as in
+ * kinemesh_options, and each step brings its length. The message about a mistake in it begins with its place,
+ * "scenario:LINE: ", and names the key. */
+KINEMESH_API kinemesh_status kinemesh_stepper_create_scenario(const kinemesh_mesh* mesh, const char* scenario,
+                                                              double frame, kinemesh_stepper** stepper);
 KINEMESH_API void kinemesh_stepper_destroy(kinemesh_stepper* stepper); /* NULL is fine */
 
 /* What a step did. Faces are counted with the padding around the domain, but for n_faces. */
@@ -105,6 +114,7 @@ typedef struct kinemesh_step {
   int32_t regions;      /* replaced */
   int32_t replaced;     /* faces in them that were rewritten */
   int32_t flips;        /* for quality "delaunay" and "angles" */
+  int32_t moves;        /* of vertices, by quality "smooth" or "angles"; some vertices more than once */
   double min_angle_deg; /* of the domain, after the step */
   double min_area;
 } kinemesh_step;
@@ -113,11 +123,19 @@ typedef struct kinemesh_step {
 KINEMESH_API kinemesh_status kinemesh_stepper_step(kinemesh_stepper* stepper, const double* xy, double dt,
                                                    kinemesh_step* record);
 
-/* The border, or some of it, to new places: n different vertices, and where each is to be, in a time dt >= 0. The rest
- * of the border stays, and the interior follows harmonically. Vertices of the interior may be named, too. */
+/* The border, or some of it, to new places: n different vertices, and where each is to be, in a time dt >= 0.
+ * The rest of the border stays, and the interior follows: harmonically, or as a scenario says. Vertices of the
+ * interior may be named, too. */
 KINEMESH_API kinemesh_status kinemesh_stepper_step_border(kinemesh_stepper* stepper, int32_t n,
-                                                          const int32_t* vertices, const double* xy, double dt,
-                                                          kinemesh_step* record);
+                                                          const int32_t* vertices, const double* xy,
+                                                          double dt, kinemesh_step* record);
+
+/* What the scenario of kinemesh_stepper_create_scenario says is to happen in a time dt >= 0 from now on. Bodies
+ * are where it says for the time at the end of the step, to rounding: nothing adds up over the steps, and two
+ * of dt / 2 bring a body to the same bits as one of dt. Other steps may come between; bodies then go from there
+ * to where they have to be. */
+KINEMESH_API kinemesh_status kinemesh_stepper_advance(kinemesh_stepper* stepper, double dt,
+                                                      kinemesh_step* record);
 
 /* For those who would rather move vertices in place: the stepper's own array of positions, to be written to
  * before kinemesh_stepper_repair, which takes them for a step. After any step, taken or refused, it holds the
@@ -128,6 +146,8 @@ KINEMESH_API kinemesh_status kinemesh_stepper_repair(kinemesh_stepper* stepper, 
 
 KINEMESH_API int32_t kinemesh_stepper_n_vertices(const kinemesh_stepper* stepper);
 KINEMESH_API int32_t kinemesh_stepper_n_faces(const kinemesh_stepper* stepper);
+
+/* The lengths of the steps taken so far, added up as if without rounding: after n steps of dt, n * dt. */
 KINEMESH_API double kinemesh_stepper_time(const kinemesh_stepper* stepper);
 
 /* The mesh as it is now; each array may be NULL. */
@@ -161,6 +181,9 @@ typedef struct kinemesh_changes {
   const kinemesh_patch* patches;
   const double* xy_before; /* of all vertices */
   const double* xy_after;
+  int32_t n_moved; /* by quality "smooth" or "angles", after the step had brought them to xy_moved */
+  const int32_t* moved;
+  const double* xy_moved;
 } kinemesh_changes;
 
 /* Called within each step that can be taken, before it is final; what it points to is gone afterwards.

@@ -346,10 +346,10 @@ double Motion::fill_noise(double dt, std::uint64_t step, std::span<Point> noises
 
 std::string Motion::describe_non_finite(int vertex, std::span<const Point> x0, const TimeStep& step) const {
   const auto& [t, t1, dt, number] = step;
-  const std::string place = fmt::format("at {}, time {}", text(x0[vertex]), t);
   if (const int b = body_of(vertex); b != none)
-    return fmt::format("body {}: {} gives no finite place {}", bodies_[b].name(),
-                       bodies_[b].culprit(initial_[vertex], x0[vertex], t, t1, dt, integrator_), place);
+    return fmt::format("body {}: {} gives no finite place for it at time {}", bodies_[b].name(),
+                       bodies_[b].culprit(initial_[vertex], x0[vertex], t, t1, dt, integrator_), t1);
+  const std::string place = fmt::format("at {}, time {}", text(x0[vertex]), t);
   const auto blame = [&](const auto& field, const Point& value) {
     return fmt::format("field \"{}\" gives {} {}", field->name(), text(value), place);
   };

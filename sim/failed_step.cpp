@@ -4,11 +4,21 @@
 
 namespace kinemesh {
 
-// Without what the quality pass is told, which no step without valid mesh gets to.
+// By vertex, so that the same freedom is the same bytes.
+template <class Archive, class S>
+requires binary::Is<S, VertexFreedom>
+void members(Archive& archive, S& freedom) {
+  std::map<int, Point> tangents(freedom.tangents.begin(), freedom.tangents.end());
+  archive(freedom.held, tangents);
+  if constexpr (!std::is_const_v<S>) freedom.tangents = {tangents.begin(), tangents.end()};
+}
+
+// Without the interior, which only what moves the vertices asks.
 template <class Archive, class S>
 requires binary::Is<S, StepperOptions>
 void members(Archive& archive, S& options) {
-  archive(options.strategy, options.quality, options.allow_escaped, options.retain, options.max_region_share);
+  archive(options.strategy, options.quality, options.allow_escaped, options.retain, options.max_region_share,
+          options.angle, options.freedom);
 }
 
 template <class Archive, class S>
@@ -20,7 +30,7 @@ void members(Archive& archive, S& step) {
 
 namespace {
 
-constexpr binary::Kind kind{"KMFSTEP\n", 2, "failed step of kinemesh"};
+constexpr binary::Kind kind{"KMFSTEP\n", 3, "failed step of kinemesh"};
 
 }  // namespace
 

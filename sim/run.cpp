@@ -70,6 +70,9 @@ std::string reason_of(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) ? "out of memory" : error.what();
 }
 
+// Of a step that nothing but another scenario helps.
+constexpr const char* must_change = "; it would stop there again: change the scenario, and run it anew";
+
 // The steps of one run, and all it writes. Construction opens the files. Pre: check_run_directory.
 class Runner {
  public:
@@ -209,7 +212,7 @@ class Runner {
     return fmt::format("; its length {} cannot be halved, min_dt is {}", dt, adaptive->min_dt);
   }
 
-  // Memory that ran out is no property of the step.
+  // Memory that ran out is no property of the step; what an InputError says is one of the scenario.
   StepOutcome step_to(double end_time) {
     try {
       return stepper_.step_to(motion_, end_time);
@@ -217,6 +220,7 @@ class Runner {
       throw;
     } catch (const std::exception& error) {
       dump(end_time, error.what(), "");
+      if (dynamic_cast<const InputError*>(&error)) stop(error.what() + std::string(must_change), false);
       throw;
     }
   }
@@ -356,19 +360,26 @@ RunSummary go(const Scenario& scenario, const RunOptions& options, RunObserver& 
   }
 }
 
+std::string what_helps(DefectKind kind) {
+  switch (kind) {
+    case DefectKind::Escaped:
+      return "; shorter steps ([time] dt, adaptive), an interior that follows ([interior] follow) or "
+             "[repair] quality = "
+             "\"angles\" may help";
+    case DefectKind::NonFinitePosition:
+      return must_change;
+    default:
+      return "";
+  }
+}
+
 }  // namespace
 
 std::string why_stopped(const StepOutcome& outcome) {
   const std::string step = "step " + std::to_string(outcome.record.step);
-  if (outcome.defect) {
-    const bool has_escaped = outcome.defect->kind == DefectKind::Escaped;
-    return step + (is_stuck(*outcome.defect) ? " stays tangled: " : " has no valid mesh: ") +
-           outcome.defect->message() +
-           (has_escaped
-                ? "; shorter steps ([time] dt, adaptive), an interior that follows ([interior] follow) or "
-                  "[repair] quality = \"angles\" may help"
-                : "");
-  }
+  if (const auto& defect = outcome.defect)
+    return step + (is_stuck(*defect) ? " stays tangled: " : " has no valid mesh: ") + defect->message() +
+           what_helps(defect->kind);
   return fmt::format("{} at time {} has regions of {:.4g} of all faces, max_region_share is {}", step,
                      outcome.record.time, outcome.too_large->share, outcome.too_large->limit);
 }

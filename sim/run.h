@@ -66,7 +66,7 @@ struct RunSummary {
   long long retries = 0;
   PhaseTimes ms;
   std::optional<std::string> stopped;        // why it ended early; nothing: all steps ended valid
-  bool can_resume = false;                   // stopped by something else than a step without valid mesh
+  bool can_resume = false;                   // `stopped` is no property of the scenario
   bool was_finished = false;                 // the run to resume had come to its end: nothing was done
   std::vector<std::filesystem::path> files;  // to open: the series, the last mesh, the logs
 };

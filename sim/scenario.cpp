@@ -327,29 +327,38 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
   }
 }
 
-Scenario read_scenario(const toml::table& document, const std::filesystem::path& file) {
-  TomlTable root(document, "");
-  Scenario scenario;
-  scenario.file = file;
-  auto mesh = section(root, "mesh"), border = section(root, "border"), time = section(root, "time"),
-       repair = section(root, "repair"), output = section(root, "output"),
-       interior = section(root, "interior");
-  root.known("motion");
-  root.known("body");
-  root.refuse_other_keys();
-  for (const std::string_view key : {"mesh", "time"})
-    if (!root.has(key)) throw error_at(root.where(), "[" + std::string(key) + "] expected");
-  const auto folder = std::filesystem::absolute(file).parent_path();
-  scenario.mesh = read_mesh_spec(mesh, folder);
+constexpr std::string_view tables_of_motions[] = {"body", "motion", "interior", "border", "repair"};
+
+void read_what_moves(TomlTable& root, const std::filesystem::path& folder, Scenario& scenario) {
   scenario.bodies = read_bodies(root, folder);
   scenario.motions = read_motions(root, folder);
   const bool has_bodies = !scenario.bodies.empty();
   if (!has_bodies && scenario.motions.empty())
     throw error_at(root.where(), "at least one [[body]] or [[motion]] expected");
+  auto interior = section(root, "interior"), border = section(root, "border"),
+       repair = section(root, "repair");
   scenario.interior = read_interior(interior, has_bodies);
   scenario.border = read_border(border);
-  scenario.time = read_time(time);
   scenario.repair = read_repair(repair, has_bodies);
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).parent_path();
+}
+
+Scenario read_scenario(const toml::table& document, const std::filesystem::path& file) {
+  TomlTable root(document, "");
+  Scenario scenario;
+  scenario.file = file;
+  auto mesh = section(root, "mesh"), time = section(root, "time"), output = section(root, "output");
+  for (const std::string_view key : tables_of_motions) root.known(key);
+  root.refuse_other_keys();
+  for (const std::string_view key : {"mesh", "time"})
+    if (!root.has(key)) throw error_at(root.where(), "[" + std::string(key) + "] expected");
+  const auto folder = folder_of(file);
+  scenario.mesh = read_mesh_spec(mesh, folder);
+  read_what_moves(root, folder, scenario);
+  scenario.time = read_time(time);
   scenario.output = read_output(output);
   return scenario;
 }
@@ -383,6 +392,19 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& file
   auto document = parse_toml(text, file.string());
   for (const auto& assignment : overrides) apply_override(document, assignment);
   return read_scenario(document, file);
+}
+
+Scenario parse_motions(std::string_view text, const std::filesystem::path& file) {
+  const auto document = parse_toml(text, file.string());
+  TomlTable root(document, "");
+  for (const std::string_view key : {"mesh", "time", "output"})
+    if (root.has(key)) root.fail(key, "belongs to a run, not expected where the mesh is there already");
+  for (const std::string_view key : tables_of_motions) root.known(key);
+  root.refuse_other_keys();
+  Scenario scenario;
+  scenario.file = file;
+  read_what_moves(root, folder_of(file), scenario);
+  return scenario;
 }
 
 Scenario load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {

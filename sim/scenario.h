@@ -130,6 +130,10 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const std::s
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& file,
                         std::span<const std::string> overrides = {});
 
+// What moves a mesh that is there already, for set_up(scenario, mesh): [[body]], [[motion]], [interior], [border] and
+// [repair] as in a scenario, and no other table; mesh, time and output stay empty. Throws as parse_scenario.
+Scenario parse_motions(std::string_view text, const std::filesystem::path& file);
+
 // The scenario with absolute paths and every default written out: loads back to the same run, bit by bit.
 std::string to_toml(const Scenario& scenario);
 

@@ -1,7 +1,7 @@
 // The scenario written out.
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 
@@ -40,11 +40,24 @@ std::string to_text(const std::vector<Point>& points) {
   return "[" + text + "]";
 }
 
-// Quotes and escapes as a text needs them.
+bool is_control(char c) {
+  return (c >= 0 && c < ' ') || c == 127;
+}
+
+// In single quotes as it is, or in double ones with escapes where it has single quotes or control characters. Always
+// in one line.
 std::string to_text(const std::string& text) {
-  std::ostringstream out;
-  out << toml::value<std::string>(text);
-  return out.str();
+  if (text.find('\'') == std::string::npos && std::ranges::none_of(text, is_control)) return "'" + text + "'";
+  std::string escaped;
+  for (const char c : text) {
+    if (is_control(c)) {
+      escaped += fmt::format("\\u{:04X}", c);
+    } else {
+      if (c == '"' || c == '\\') escaped += '\\';
+      escaped += c;
+    }
+  }
+  return '"' + escaped + '"';
 }
 
 // One text, or a list of several.
@@ -72,9 +85,10 @@ std::string to_text(const AdaptiveSpec& adaptive) {
 
 // A key that is not of letters, digits, - and _ alone needs quotes.
 std::string key_text(const std::string& key) {
-  std::ostringstream out;
-  out << toml::table{{key, 0}};
-  return out.str().substr(0, out.str().rfind(" = "));
+  const auto is_bare = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  return !key.empty() && std::ranges::all_of(key, is_bare) ? key : to_text(key);
 }
 
 class Writer {

@@ -88,6 +88,21 @@ class ChangesInPlace {
   ChangeTracker* tracker_;
 };
 
+// Marks vertices for the length of a scope.
+class Named {
+ public:
+  Named(std::vector<char>& marks, const Mesh& mesh, std::span<const int> vertices) : marks_(marks) {
+    marks_.assign(mesh.n_vertices(), 0);
+    for (const int user : vertices) marks_[mesh.vertex_of_user(user)] = 1;
+  }
+  ~Named() { marks_.clear(); }
+  Named(const Named&) = delete;
+  Named& operator=(const Named&) = delete;
+
+ private:
+  std::vector<char>& marks_;
+};
+
 // The border and what is fixed is known, all else follows.
 std::vector<Role> border_roles(const Mesh& mesh) {
   std::vector<Role> roles(mesh.n_vertices(), Role::Free);
@@ -244,8 +259,8 @@ void Stepper::measure(StepOutcome& outcome) {
 void Stepper::improve(RepairRecord& record) {
   const Stopwatch clock;
   const auto before = step_ == 0 ? std::span<const Point>() : std::span<const Point>(next_);
-  const QualityCounts done =
-      quality_->improve(mesh_, {.before = before, .replaced = record.regions, .minima = &minima_});
+  const QualityCounts done = quality_->improve(
+      mesh_, {.before = before, .replaced = record.regions, .minima = &minima_, .stays = named_});
   record.quality_flips = done.flips;
   record.quality_moves = done.moves;
   record.quality_ms = clock.milliseconds();
@@ -369,6 +384,7 @@ StepOutcome Stepper::step_border_by(std::span<const int> vertices, std::span<con
     if (std::exchange(is_given[user], 1)) throw InputError("vertex " + std::to_string(user) + " comes twice");
     roles[mesh_.vertex_of_user(user)] = Role::Known;
   }
+  const Named named(named_, mesh_, vertices);
   return advance(end_time, dt, [&](std::span<Point> next) {
     std::ranges::copy(mesh_.positions(), next.begin());
     for (std::size_t i = 0; i < vertices.size(); ++i) next[mesh_.vertex_of_user(vertices[i])] = positions[i];

@@ -96,7 +96,7 @@ class Stepper {
 
   // To given positions of the border, or of some of it, one for each of `vertices` (the user's numbers); what of the
   // border is not named stays, and so do fixed vertices that are not named; the interior follows (options.interior).
-  // Vertices of the interior may be named, too, and are then where they are asked to be. Throws InputError for
+  // Vertices of the interior may be named, too, and are then where they are asked to be, whatever the quality. Throws InputError for
   // numbers that are no vertex's or come twice, other counts, and an interior that is told to follow nothing.
   [[nodiscard]] StepOutcome step_border(std::span<const int> vertices, std::span<const Point> positions,
                                         double dt);
@@ -166,7 +166,8 @@ class Stepper {
   FollowingState start_;                // of its first step
   double interior_ms_ = 0.0;            // of the step at hand
   bool has_followed_ = false;           // likewise
-  std::vector<Point> positions_;        // what positions() hands out; empty before
+  std::vector<char> named_;       // per vertex: by step_border, and so not quality's; empty in other steps
+  std::vector<Point> positions_;  // what positions() hands out; empty before
   std::vector<StepObserver> observers_;
   std::unique_ptr<ChangeTracker> tracker_;  // with observers or a limit only
   double time_;

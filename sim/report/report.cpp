@@ -36,6 +36,9 @@ const std::vector<std::string> needed_of_steps = {"step",      "time",       "fa
                                                   "move_ms",   "detect_ms",  "explore_ms", "triangulate_ms",
                                                   "splice_ms", "quality_ms", "total_ms"};
 
+// Runs of earlier versions do not have them.
+const std::vector<std::string> welcome_of_steps = {"quality_flips", "quality_moves", "interior_ms"};
+
 // Collects the parts of a page.
 class Maker {
  public:
@@ -96,7 +99,10 @@ class Maker {
       data_["facts"] = fmt::format("{}, {} step{} to time {:.6g}{}{}", size_of(steps_), steps_.size,
                                    steps_.size == 1 ? "" : "s", steps_.numbers["time"].back(),
                                    facts.empty() ? "" : "; ", facts);
-    data_["steps"] = columns(thinned(steps_, "steps"), needed_of_steps);
+    auto shown = needed_of_steps;
+    for (const std::string& name : welcome_of_steps)
+      if (steps_.numbers.contains(name)) shown.push_back(name);
+    data_["steps"] = columns(thinned(steps_, "steps"), shown);
   }
 
   // Of the meshes, of which a sweep may have several.
@@ -108,18 +114,24 @@ class Maker {
     return fmt::format("{} vertices, {} triangles", range("vertices"), range("faces"));
   }
 
-  // The tangled step of each bunch that has most inverted faces, so that peaks stay.
+  // The step of each bunch that has most inverted faces, or else the smallest angle, so that peaks stay.
   Table thinned(const Table& table, const char* what) {
     const std::size_t bunch = (table.size + most_rows - 1) / most_rows;
     if (bunch <= 1) return table;
-    note(fmt::format("The plots show one of every {} {}, that with the most inverted triangles.", bunch,
-                     what));
-    const auto& inverted = table.numbers.at("inverted");
+    note(
+        fmt::format("The plots show one of every {} {}, that with the most inverted triangles, or else the "
+                    "smallest angle.",
+                    bunch, what));
+    const auto &inverted = table.numbers.at("inverted"), &angle = table.numbers.at("min_angle_deg");
+    const auto is_calmer = [&](std::size_t a, std::size_t b) {
+      return inverted[a] < inverted[b] || (inverted[a] == inverted[b] && angle[a] > angle[b]);
+    };
     std::vector<std::size_t> rows;
     for (std::size_t start = 0; start < table.size; start += bunch) {
-      const auto from = inverted.begin() + static_cast<std::ptrdiff_t>(start);
-      const auto to = inverted.begin() + static_cast<std::ptrdiff_t>(std::min(table.size, start + bunch));
-      rows.push_back(static_cast<std::size_t>(std::max_element(from, to) - inverted.begin()));
+      std::size_t most = start;
+      for (std::size_t row = start; row < std::min(table.size, start + bunch); ++row)
+        if (is_calmer(most, row)) most = row;
+      rows.push_back(most);
     }
     return select(table, rows);
   }

@@ -1,5 +1,6 @@
 /* The C interface as a C program meets it. Argument: a folder to write to. */
 #include <kinemesh.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,7 +77,7 @@ static int watch(const kinemesh_changes* changes, void* user) {
 static void takes_steps_and_tells_of_them(void) {
   kinemesh_stepper* stepper = stepper_on(square(), NULL);
   double xy[2 * n_vertices], *own;
-  int32_t now[3 * n_faces];
+  int32_t now[3 * n_faces], n;
   kinemesh_step record;
   observed seen = {{0}, 0, 0, 0};
   memcpy(seen.faces, triangles, sizeof triangles);
@@ -100,6 +101,12 @@ static void takes_steps_and_tells_of_them(void) {
   CHECK(seen.calls == 2 && seen.patches >= 2);
   CHECK(kinemesh_stepper_get(stepper, NULL, now, NULL) == KINEMESH_OK);
   CHECK(memcmp(now, seen.faces, sizeof now) == 0);
+
+  for (n = 0; n < 100; ++n) { /* the naive sum is off by more than its last bit */
+    CHECK(kinemesh_stepper_repair(stepper, 0.1, &record) == KINEMESH_OK && record.dt == 0.1);
+  }
+  CHECK(kinemesh_stepper_time(stepper) == 10.5);
+  CHECK(kinemesh_stepper_repair(stepper, -1e-300, NULL) == KINEMESH_BAD_INPUT);
   kinemesh_stepper_destroy(stepper);
 }
 
@@ -120,6 +127,181 @@ static void moves_a_border_and_what_is_inside_follows(void) {
   CHECK(kinemesh_stepper_step_border(stepper, 1, none_such, there, 0.5, NULL) == KINEMESH_BAD_INPUT);
   CHECK(kinemesh_stepper_step_border(stepper, 1, corner, NULL, 0.5, NULL) == KINEMESH_BAD_INPUT);
   CHECK(kinemesh_stepper_time(stepper) == 0.5);
+  kinemesh_stepper_destroy(stepper);
+}
+
+/* Around a hole of radius 1, up to radius 3: rings of vertices, those of the hole first; markers hole and rim. */
+enum { around = 16, rings = 5, n_ring = around * rings, n_ring_faces = 2 * around * (rings - 1) };
+
+static kinemesh_mesh* ring(void) {
+  const double pi = acos(-1.0);
+  double xy[2 * n_ring];
+  int32_t faces[3 * n_ring_faces], hole[2 * around], rim[2 * around], i, k, *f = faces;
+  kinemesh_mesh* mesh = NULL;
+  for (k = 0; k < rings; ++k) {
+    for (i = 0; i < around; ++i) {
+      const int32_t next = (i + 1) % around, a = k * around + i, b = k * around + next;
+      xy[2 * a] = (1 + 0.5 * k) * cos(2 * pi * i / around);
+      xy[2 * a + 1] = (1 + 0.5 * k) * sin(2 * pi * i / around);
+      if (k + 1 < rings) {
+        *f++ = a, *f++ = a + around, *f++ = b + around;
+        *f++ = a, *f++ = b + around, *f++ = b;
+      }
+      hole[2 * i] = i, hole[2 * i + 1] = next;
+      rim[2 * i] = (rings - 1) * around + i, rim[2 * i + 1] = (rings - 1) * around + next;
+    }
+  }
+  CHECK(kinemesh_mesh_create(n_ring, xy, n_ring_faces, faces, NULL, &mesh) == KINEMESH_OK);
+  CHECK(kinemesh_mesh_add_marker(mesh, "hole", around, hole) == KINEMESH_OK);
+  CHECK(kinemesh_mesh_add_marker(mesh, "rim", around, rim) == KINEMESH_OK);
+  return mesh;
+}
+
+static const char turning_hole[] =
+    "[[body]]\n"
+    "on = 'marker:hole'\n"
+    "motion = [{ field = 'rigid', x = 't', y = '0.5 * t^2', angle = '3 * t' }]\n"
+    "[border]\n"
+    "rim = 'fixed'\n";
+
+static kinemesh_stepper* stepper_of(const char* scenario) {
+  kinemesh_mesh* mesh = ring();
+  kinemesh_stepper* stepper = NULL;
+  CHECK(kinemesh_stepper_create_scenario(mesh, scenario, 0.25, &stepper) == KINEMESH_OK);
+  kinemesh_mesh_destroy(mesh);
+  return stepper;
+}
+
+static int is_about(double a, double b) {
+  return fabs(a - b) < 1e-14;
+}
+
+/* Vertices of the hole are a body's, and not moved for their angles. */
+static int count_moved(const kinemesh_changes* changes, void* user) {
+  int32_t i, v;
+  for (i = 0; i < changes->n_moved; ++i) {
+    v = changes->moved[i];
+    CHECK(v >= around && v < n_ring);
+    CHECK(memcmp(changes->xy_moved + 2 * i, changes->xy_after + 2 * v, 2 * sizeof(double)) != 0);
+  }
+  *(int32_t*)user = changes->n_moved;
+  return 0;
+}
+
+static void moves_bodies_exactly_and_the_interior_follows(void) {
+  kinemesh_mesh* mesh = ring();
+  kinemesh_stepper *stepper = stepper_of(turning_hole), *halved = stepper_of(turning_hole);
+  kinemesh_step record;
+  double start[2 * n_ring], xy[2 * n_ring], half[2 * n_ring];
+  int32_t faces[3 * n_ring_faces], n, i, moved = 0, moves = 0;
+  CHECK(kinemesh_stepper_observe(stepper, count_moved, &moved) == KINEMESH_OK);
+  kinemesh_mesh_get(mesh, start, NULL, NULL);
+  for (n = 1; n <= 10; ++n) {
+    const double t = n * 0.1, c = cos(3 * t), s = sin(3 * t);
+    CHECK(kinemesh_stepper_advance(stepper, 0.1, &record) == KINEMESH_OK);
+    CHECK(record.step == n && record.time == t && kinemesh_stepper_time(stepper) == t);
+    CHECK(record.min_angle_deg > 5 && record.min_area > 0);
+    CHECK(record.moves >= moved && (record.moves > 0) == (moved > 0));
+    moves += moved;
+    CHECK(kinemesh_stepper_advance(halved, 0.05, NULL) == KINEMESH_OK);
+    CHECK(kinemesh_stepper_advance(halved, 0.05, NULL) == KINEMESH_OK);
+    CHECK(kinemesh_stepper_time(halved) == t);
+    CHECK(kinemesh_stepper_get(stepper, xy, faces, NULL) == KINEMESH_OK);
+    CHECK(kinemesh_stepper_get(halved, half, NULL, NULL) == KINEMESH_OK);
+    CHECK(memcmp(xy, half, sizeof *xy * 2 * around) == 0); /* the body, bit for bit */
+    for (i = 0; i < around; ++i) {
+      CHECK(is_about(xy[2 * i], c * start[2 * i] - s * start[2 * i + 1] + t));
+      CHECK(is_about(xy[2 * i + 1], s * start[2 * i] + c * start[2 * i + 1] + 0.5 * t * t));
+    }
+    i = 2 * around * (rings - 1); /* the rim */
+    CHECK(memcmp(xy + i, start + i, sizeof *xy * 2 * around) == 0);
+    for (i = 0; i < n_ring_faces; ++i) CHECK(area(xy, faces + 3 * i) > 0);
+  }
+  CHECK(moves > 0);
+  kinemesh_mesh_destroy(mesh);
+  kinemesh_stepper_destroy(stepper);
+  kinemesh_stepper_destroy(halved);
+}
+
+/* A body, and a border that somebody else moves between its steps. */
+static void takes_other_steps_between(void) {
+  kinemesh_stepper* stepper =
+      stepper_of("[[body]]\non = 'marker:hole'\nmotion = [{ field = 'rigid', y = 't' }]\n");
+  const int32_t vertex[] = {0};
+  const double there[] = {1.125, 0.125};
+  double xy[2 * n_ring];
+  CHECK(kinemesh_stepper_step_border(stepper, 1, vertex, there, 0, NULL) == KINEMESH_OK);
+  CHECK(kinemesh_stepper_get(stepper, xy, NULL, NULL) == KINEMESH_OK);
+  CHECK(xy[0] == 1.125 && xy[1] == 0.125);
+  CHECK(kinemesh_stepper_advance(stepper, 0.25, NULL) == KINEMESH_OK);
+  CHECK(kinemesh_stepper_get(stepper, xy, NULL, NULL) == KINEMESH_OK);
+  CHECK(xy[0] == 1 && xy[1] == 0.25);
+  kinemesh_stepper_destroy(stepper);
+}
+
+static void refuses_scenarios_with_the_line_and_the_key(void) {
+  static const struct {
+    const char *text, *told;
+  } bad[] = {
+      {"", "at least one [[body]] or [[motion]] expected"},
+      {"[[body]]\nmotion = []\n", "scenario:1: [[body]]: on expected"},
+      {"[[body]]\non = 'marker:hol'\n", "scenario:2: no marker 'hol' in the mesh, did you mean 'hole'?"},
+      {"[[body]]\non = 'marker:hole'\nmove = []\n", "scenario:3: unknown key 'move' in [[body]]"},
+      {"[[body]]\non = 'marker:hole'\nmotion = [{ field = 'rigid', x = 'sin(' }]\n", "scenario:3: "},
+      {"[[body]]\non = 'marker:hole'\nmotion = [{ field = 'rigid', file = 'none.csv' }]\n", "none.csv"},
+      {"[[body]]\non = 'marker:hole'\n[border]\nhole = 'fixed'\n", "scenario:4: the marker 'hole'"},
+      {"[[body]]\non = 'marker:hole'\n[interior]\nfollow = 'me'\n", "scenario:4: follow: unknown: 'me'"},
+      {"[[body]]\non = 'marker:hole'\n[repair]\nangle = 90\n", "scenario:4: angle: degrees below 60"},
+      {"[[body]]\non = 'marker:hole'\n[mesh]\nshape = 'disk'\n", "scenario:3: mesh: "},
+      {"[[body]]\non = 'marker:hole'\n[time]\ndt = 1\n", "scenario:3: time: "},
+      {"[[body]]\non = 'marker:hole'\n[output]\nevery = 1\n", "scenario:3: output: "},
+      {"[[body]]\non = 'marker:hole'\n[borders]\n", "scenario:3: unknown key 'borders'"},
+      {"[[body]\n", "scenario:1: "},
+  };
+  kinemesh_mesh* mesh = ring();
+  kinemesh_stepper* stepper = NULL;
+  size_t i;
+  for (i = 0; i < sizeof bad / sizeof *bad; ++i) {
+    CHECK(kinemesh_stepper_create_scenario(mesh, bad[i].text, 0.25, &stepper) == KINEMESH_BAD_INPUT);
+    CHECK(stepper == NULL && strstr(kinemesh_error(), bad[i].told) && !strchr(kinemesh_error(), '\n'));
+  }
+  CHECK(kinemesh_stepper_create_scenario(mesh, NULL, 0.25, &stepper) == KINEMESH_BAD_INPUT);
+  CHECK(kinemesh_stepper_create_scenario(NULL, turning_hole, 0.25, &stepper) == KINEMESH_BAD_INPUT);
+  CHECK(kinemesh_stepper_create_scenario(mesh, turning_hole, 0.25, NULL) == KINEMESH_BAD_INPUT);
+  CHECK(kinemesh_stepper_create_scenario(mesh, turning_hole, -1, &stepper) == KINEMESH_BAD_INPUT);
+  kinemesh_mesh_destroy(mesh);
+}
+
+/* The body runs into the rim, has no place, or nothing moves at all. */
+static void leaves_everything_as_it_was_when_bodies_cannot_move(void) {
+  static const struct {
+    const char *path, *told;
+    kinemesh_status status;
+  } cases[] = {{"9 * t", "crosses", KINEMESH_NO_VALID_MESH},
+               {"t < 0.25 ? t : sqrt(-1)", "body marker:hole", KINEMESH_NO_VALID_MESH}};
+  kinemesh_stepper* stepper;
+  double before[2 * n_ring], xy[2 * n_ring];
+  int32_t faces[3 * n_ring_faces], now[3 * n_ring_faces];
+  char text[200];
+  size_t i;
+  for (i = 0; i < 2; ++i) {
+    sprintf(text, "[[body]]\non = 'marker:hole'\nmotion = [{ field = 'rigid', x = '%s' }]\n", cases[i].path);
+    stepper = stepper_of(text);
+    CHECK(kinemesh_stepper_advance(stepper, 0.1, NULL) == KINEMESH_OK);
+    CHECK(kinemesh_stepper_get(stepper, before, faces, NULL) == KINEMESH_OK);
+    CHECK(kinemesh_stepper_advance(stepper, 0.3, NULL) == cases[i].status);
+    CHECK(strstr(kinemesh_error(), cases[i].told));
+    CHECK(kinemesh_stepper_advance(stepper, -0.1, NULL) == KINEMESH_BAD_INPUT);
+    CHECK(kinemesh_stepper_get(stepper, xy, now, NULL) == KINEMESH_OK);
+    CHECK(memcmp(xy, before, sizeof xy) == 0 && memcmp(now, faces, sizeof now) == 0);
+    CHECK(kinemesh_stepper_time(stepper) == 0.1);
+    CHECK(kinemesh_stepper_advance(stepper, 0.05, NULL) == KINEMESH_OK);
+    kinemesh_stepper_destroy(stepper);
+  }
+  stepper = stepper_on(ring(), NULL);
+  CHECK(kinemesh_stepper_advance(stepper, 0.1, NULL) == KINEMESH_BAD_INPUT);
+  CHECK(strstr(kinemesh_error(), "kinemesh_stepper_create_scenario"));
+  CHECK(kinemesh_stepper_advance(NULL, 0.1, NULL) == KINEMESH_BAD_INPUT);
   kinemesh_stepper_destroy(stepper);
 }
 
@@ -215,6 +397,10 @@ int main(int argc, char** argv) {
   CHECK(strlen(kinemesh_version()) > 4);
   takes_steps_and_tells_of_them();
   moves_a_border_and_what_is_inside_follows();
+  moves_bodies_exactly_and_the_interior_follows();
+  takes_other_steps_between();
+  refuses_scenarios_with_the_line_and_the_key();
+  leaves_everything_as_it_was_when_bodies_cannot_move();
   leaves_everything_as_it_was_when_it_fails();
   refuses_what_is_no_mesh();
   keeps_markers_and_labels(argv[1]);

@@ -6,6 +6,7 @@ import os
 import random
 import unittest
 from array import array
+from concurrent.futures import ThreadPoolExecutor
 from ctypes import POINTER, c_double, c_int, c_int32, c_void_p
 
 try:
@@ -27,12 +28,13 @@ class Patch(ctypes.Structure):
 
 class Changes(ctypes.Structure):
     _fields_ = [("step", c_int32), ("time", c_double), ("dt", c_double), ("n_patches", c_int32),
-                ("patches", POINTER(Patch)), ("xy_before", POINTER(c_double)), ("xy_after", POINTER(c_double))]
+                ("patches", POINTER(Patch)), ("xy_before", POINTER(c_double)), ("xy_after", POINTER(c_double)),
+                ("n_moved", c_int32), ("moved", POINTER(c_int32)), ("xy_moved", POINTER(c_double))]
 
 
 class Step(ctypes.Structure):
     _fields_ = [("step", c_int32), ("time", c_double), ("dt", c_double),
-                *((name, c_int32) for name in ("n_faces", "inverted", "flat", "regions", "replaced", "flips")),
+                *((name, c_int32) for name in ("n_faces", "inverted", "flat", "regions", "replaced", "flips", "moves")),
                 ("min_angle_deg", c_double), ("min_area", c_double)]
 
 
@@ -144,6 +146,54 @@ class Interface(unittest.TestCase):
         self.call("stepper_repair", stepper, c_double(0.0), None)
         self.assertTrue(math.isclose(self.area(list(view), self.faces(stepper)), 1.0))
         self.assertNotEqual(self.faces(stepper), triangles)
+
+    def piston(self):
+        """A square whose right side pushes in and pulls back; the lower and the upper one slide."""
+        n = 8
+        points, triangles = grid(n)
+        mesh, stepper = c_void_p(), c_void_p()
+        self.call("mesh_create", len(points) // 2, address(points, c_double), len(triangles) // 3,
+                  address(triangles, c_int32), None, ctypes.byref(mesh))
+        sides = {b"bottom": range(n + 1), b"right": range(n, (n + 1) ** 2, n + 1),
+                 b"top": range(n * (n + 1), (n + 1) ** 2)}
+        for name, side in sides.items():
+            edges = array("i", (v for edge in zip(side, side[1:]) for v in edge))
+            self.call("mesh_add_marker", mesh, name, len(side) - 1, address(edges, c_int32))
+        scenario = b"""
+            [[body]]
+            on = "marker:right"
+            motion = [{ field = "rigid", x = "-0.8 * sin(t)" }]
+            [border]
+            bottom = "slide"
+            top = "slide"
+            """
+        self.call("stepper_create_scenario", mesh, scenario, c_double(0.25), ctypes.byref(stepper))
+        LIBRARY.kinemesh_mesh_destroy(mesh)
+        self.addCleanup(LIBRARY.kinemesh_stepper_destroy, stepper)
+        return stepper
+
+    def advance(self, stepper, steps):
+        """Every step's positions."""
+        seen, record, xy = [], Step(), array("d", bytes(16 * LIBRARY.kinemesh_stepper_n_vertices(stepper)))
+        for _ in range(steps):
+            self.call("stepper_advance", stepper, c_double(0.1), ctypes.byref(record))
+            self.call("stepper_get", stepper, address(xy, c_double), None, None)
+            seen.append((record.time, array("d", xy)))
+        return seen
+
+    def test_bodies(self):
+        stepper = self.piston()
+        for time, xy in self.advance(stepper, 15):
+            side = 1.0 - 0.8 * math.sin(time)
+            self.assertTrue(all(math.isclose(xy[2 * v], side, abs_tol=1e-15) for v in range(8, 81, 9)))
+            self.assertEqual({xy[2 * v + 1] for v in range(9)}, {0.0})
+        self.assertTrue(math.isclose(self.area(xy, self.faces(stepper)), side))
+
+    def test_bodies_in_threads(self):
+        alone = self.advance(self.piston(), 10)
+        with ThreadPoolExecutor(4) as pool:
+            for seen in pool.map(lambda stepper: self.advance(stepper, 10), [self.piston() for _ in range(4)]):
+                self.assertEqual(seen, alone)
 
     @unittest.skipUnless(numpy, "numpy is not here")
     def test_numpy(self):

@@ -204,12 +204,15 @@ std::string sample_failed_step() {
   step.moved = mesh.user_positions();
   step.moved[5] += Point(0.5, 0.1);
   step.end_time = 0.1;
+  step.options.quality = "angles";
+  step.options.freedom.held.assign(mesh.n_vertices(), 0);
+  step.options.freedom.tangents[3] = {1.0, 0.0};
   return format_failed_step(step);
 }
 
 Subject failed_step_subject() {
   const std::string sample = sample_failed_step();
-  const binary::Kind kind{"KMFSTEP\n", 2, "failed step"};
+  const binary::Kind kind{"KMFSTEP\n", 3, "failed step"};
   return {"failed_step", [=](Dice& dice) { return resealed(sample, kind, dice); },
           [](const std::string& content) {
             (void)replay(parse_failed_step(content));

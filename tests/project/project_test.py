@@ -96,7 +96,7 @@ class Embedding(unittest.TestCase):
     """Each block of docs/embedding.md is a piece of a program that is built and run, apart from its indentation."""
 
     PROGRAMS = {"cpp": ("examples/solver_loop.cpp", "examples/fluid_structure.cpp"),
-                "c": ("tests/consumer/project/consumer.c",), "cmake": ("tests/consumer/project/CMakeLists.txt",)}
+                "c": ("tests/consumer/project/consumer.c", "examples/moving_walls.c"), "cmake": ("tests/consumer/project/CMakeLists.txt",)}
 
     def test_blocks_are_pieces_of_programs(self):
         for language, programs in self.PROGRAMS.items():

@@ -80,6 +80,17 @@ const tests = {
     assert.deepEqual(complaints, []);
   },
 
+  async "a run of bodies that tangles nowhere shows angles, what was done for them, and times"() {
+    const { page, complaints } = await open("body");
+    assert.deepEqual(await page.locator("#plots .u-title").allTextContents(), ["smallest angle, degrees", "moved and flipped for quality", "time of a step, ms"]);
+    assert.match(await page.textContent("#plots .told"), /^No step has turned a triangle over/);
+    assert.match(await page.textContent("#now"), /^step \d+, time [\d.]+: [1-9]\d* flips?(, [1-9]\d* moves?)?$/);
+    assert.equal(await page.locator("#views").isVisible(), false);
+    const phases = await page.locator("#plots .plot").last().locator(".u-legend th").allTextContents();
+    for (const phase of ["interior", "quality", "detect", "move"]) assert(phases.some((text) => text.includes(phase)), phase);
+    assert.deepEqual(complaints, []);
+  },
+
   async "every frame is the mesh that the run has written, upright and whole"() {
     const { page } = await open("rotor");
     const areas = await page.evaluate(() => {
@@ -164,11 +175,11 @@ const tests = {
   },
 
   async "runs without steps, with one, with ten thousand, without meshes; benchmarks"() {
-    for (const [name, wanted] of [["none", /No step has been made/], ["one", null], ["many", /The plots show one of every 2 steps/], ["no_meshes", /No meshes to play/], ["series", /Only the meshes written/], ["thinned", /The player has \d+ of \d+ frames/]]) {
+    for (const [name, wanted] of [["none", /No step has been made/], ["one", null], ["old", null], ["many", /The plots show one of every 2 steps/], ["no_meshes", /No meshes to play/], ["series", /Only the meshes written/], ["thinned", /The player has \d+ of \d+ frames/]]) {
       const { page, complaints } = await open(name);
       if (wanted) assert.match(await page.textContent("#notes"), wanted, name);
       assert.equal(await page.locator("#player").isVisible(), !["no_meshes", "many"].includes(name), name);
-      assert.equal(await page.locator("#plots .plot").count(), { none: 0, many: 4 }[name] ?? 5, name);
+      assert.equal(await page.locator("#plots .plot").count(), { none: 0, one: 2, many: 4 }[name] ?? 5, name);
       assert.deepEqual(complaints, [], name);
       await page.context().close();
     }

@@ -13,7 +13,7 @@ import unittest
 import zlib
 from pathlib import Path
 
-from runs import ROOT, program, run_rotor
+from runs import ROOT, program, run_body, run_rotor
 
 WEB = ROOT / "sim/report/web"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -106,6 +106,7 @@ class Reports(unittest.TestCase):
         cls.folder = Path(tempfile.mkdtemp())
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         run_rotor(cls.folder)
+        run_body(cls.folder)
         run_rotor(cls.folder, "one", "time.steps=1")
         run_rotor(cls.folder, "series", "output.patches=false")
         cls.copy("no_meshes", "run.json", "scenario.toml", "steps.csv", "regions.csv")
@@ -113,6 +114,7 @@ class Reports(unittest.TestCase):
         for name in ("steps.csv", "regions.csv"):
             path = cls.folder / "none" / name
             path.write_text(path.read_text().split("\n")[0] + "\n")
+        cls.make_old()
         cls.make_many()
         cls.make_bench()
 
@@ -121,6 +123,14 @@ class Reports(unittest.TestCase):
         (cls.folder / name).mkdir()
         for file in files:
             shutil.copy(cls.folder / "rotor" / file, cls.folder / name)
+
+    @classmethod
+    def make_old(cls):
+        """As earlier versions logged."""
+        cls.copy("old", "run.json", "regions.csv", "patches.bin")
+        rows = [line.split(",") for line in (cls.folder / "rotor/steps.csv").read_text().split("\n")[:-1]]
+        kept = [i for i, name in enumerate(rows[0]) if name not in ("quality_flips", "interior_ms", "quality_moves")]
+        (cls.folder / "old/steps.csv").write_text("".join(",".join(row[i] for i in kept) + "\n" for row in rows))
 
     @classmethod
     def make_many(cls):
@@ -187,10 +197,22 @@ class Reports(unittest.TestCase):
     def test_plots_hold_the_logs(self):
         _, data = self.report("rotor")
         header, *rows = [line.split(",") for line in (self.folder / "rotor/steps.csv").read_text().split("\n")[:-1]]
-        for name in ("time", "inverted", "replaced", "min_angle_deg", "total_ms"):
+        for name in ("time", "inverted", "replaced", "min_angle_deg", "total_ms", "interior_ms", "quality_moves"):
             self.assertEqual(data["steps"][name], [float(row[header.index(name)]) for row in rows])
         self.assertEqual(data["sizes"]["max"], [float(row[header.index("region_faces_max")]) for row in rows])
         self.assertEqual(data["sizes"]["count"], [float(row[header.index("regions")]) for row in rows])
+
+    def test_bodies_show_what_was_done_for_quality(self):
+        steps = self.report("body")[1]["steps"]
+        self.assertEqual(sum(steps["inverted"]), 0)
+        self.assertGreater(sum(steps["quality_moves"]) + sum(steps["quality_flips"]), 0)
+        self.assertGreater(min(steps["interior_ms"]), 0)
+
+    def test_logs_of_earlier_versions_have_fewer_columns(self):
+        _, data = self.report("old")
+        self.assertEqual(len(data["mesh"]["frames"]), 13)
+        for name in ("quality_flips", "interior_ms", "quality_moves"):
+            self.assertNotIn(name, data["steps"])
 
     def test_a_sweep_is_found_by_its_column(self):
         self.assertEqual(self.report("bench")[1]["bench"]["swept"], [])
@@ -341,7 +363,7 @@ class Reports(unittest.TestCase):
             self.skipTest("npm has no way to its packages")
         self.test_a_page_keeps_to_its_size()
         self.test_a_sweep_may_be_of_lists_and_names()
-        for name in ("rotor", "one", "none", "many", "no_meshes", "series", "bench", "sweep", "lists"):
+        for name in ("rotor", "body", "old", "one", "none", "many", "no_meshes", "series", "bench", "sweep", "lists"):
             self.report(name)
         command = ["node", "browser_test.mjs", CHROMIUM, str(self.folder)]
         done = subprocess.run(command, cwd=MODULES, capture_output=True, text=True, check=False)

@@ -8,6 +8,7 @@
 #include "core/build.h"
 #include "core/validate.h"
 #include "sim/bench.h"
+#include "sim/failed_step.h"
 #include "sim/run.h"
 #include "sim/setup.h"
 #include "tests/sim/helpers.h"
@@ -170,6 +171,52 @@ TEST_F(BodyRuns, MistakesHaveTheirLine) {
   EXPECT_EQ(error_of(mesh + "[[body]]\non = 'marker:cylinder'\n" + time), "none");
 }
 
+// Resuming would stop at the same step: what has to change is said, and no command that goes on.
+TEST_F(BodyRuns, ThatStopAtWhatStaysSoSayThatItHasToChange) {
+  const struct {
+    const char *motion, *bodies, *says;
+  } cases[] = {{"y = 't > 0.25 ? 0.1 : 0'", "", "off the line of a sliding border"},
+               {"x = 't'", "[[body]]\non = 'marker:left'\n[[body]]\non = 'marker:bottom'\n", "share vertex"},
+               {"x = 'sqrt(0.25 - t)'", "", "its path gives no finite place for it at time 0.3"}};
+  for (const auto& [motion, bodies, says] : cases) {
+    const bool is_shared = *bodies;
+    const std::string text =
+        std::string("[mesh]\nshape = 'square'\nvertices = 200\n[[body]]\non = 'marker:right'\n") +
+        "motion = [{field = 'rigid', " + motion + "}]\n" + bodies +
+        (is_shared ? "" : "[border]\ntop = 'slide'\nbottom = 'slide'\n") + "[time]\ndt = 0.1\nend = 1\n";
+    const RunSummary summary = go(parse_scenario(text, folder_ / "s.toml"), std::string(says, 8));
+    ASSERT_TRUE(summary.stopped) << text;
+    EXPECT_FALSE(summary.can_resume) << *summary.stopped;
+    EXPECT_THAT(*summary.stopped, testing::AllOf(HasSubstr(says), HasSubstr("change the scenario")));
+  }
+}
+
+// With what quality may move: bodies stay, the walls' vertices slide.
+TEST_F(BodyRuns, StepsKeptInAFileAreRepeatedWithTheirQuality) {
+  const Scenario scenario = load();
+  kinemesh::SetUp made = set_up(scenario);
+  StepperOptions options = stepper_options(scenario.repair, made.motion);
+  options.angle = 30.0;  // keeps quality busy
+  Stepper stepper(made.mesh, options);
+  int moves = 0;
+  for (int n = 1; n <= 12; ++n) {
+    FailedStep kept = failed_step(stepper, made.motion, n * 0.03);
+    kept.options = options;
+    kept.origin = origin_of(made.mesh);
+    const std::string file = format_failed_step(kept);
+    EXPECT_EQ(format_failed_step(parse_failed_step(file)), file);
+    const StepOutcome again = replay(parse_failed_step(file)), once = stepper.step_to(made.motion, n * 0.03);
+    ASSERT_TRUE(once && again);
+    EXPECT_EQ(again.record.repair.quality_flips, once.record.repair.quality_flips);
+    EXPECT_EQ(again.record.repair.quality_moves, once.record.repair.quality_moves);
+    EXPECT_EQ(again.record.min_angle_deg, once.record.min_angle_deg);
+    EXPECT_EQ(again.record.min_area, once.record.min_area);
+    moves += once.record.repair.quality_moves;
+  }
+  EXPECT_GT(moves, 0);
+  EXPECT_FALSE(options.freedom.held.empty() || options.freedom.tangents.empty());
+}
+
 TEST_F(BodyRuns, LoadBackFromTheResolvedScenario) {
   const Scenario scenario = load({"interior.follow=elastic", "interior.stiffness.0=2.5"});
   const std::string text = to_toml(scenario);
@@ -223,6 +270,25 @@ TEST(StepBorder, MovesTheBorderAndTheInteriorFollows) {
   const std::vector<int> twice{hole[0], hole[0]};
   EXPECT_THROW((void)stepper.step_border(twice, std::vector<Point>(2), 0.1), InputError);
   EXPECT_THROW((void)stepper.step_border(hole, std::vector<Point>(2), 0.1), InputError);
+}
+
+// Two neighbours inside, brought close: a face that angles and smooth would widen by moving them.
+TEST(StepBorder, QualityLeavesNamedVerticesOfTheInteriorAlone) {
+  for (const char* quality : {"angles", "smooth"}) {
+    Stepper stepper(build_mesh(test::grid(8), {.frame = 0.25, .fixed = {}}), {.quality = quality});
+    const std::vector<int> named{40, 41};
+    const std::vector<Point> places{stepper.mesh().user_positions()[40] + Point(0.055, 0.0),
+                                    stepper.mesh().user_positions()[41] - Point(0.055, 0.0)};
+    const auto outcome = stepper.step_border(named, places, 0.1);
+    ASSERT_TRUE(outcome) << outcome.defect->message();
+    EXPECT_EQ(stepper.mesh().user_positions()[40], places[0]) << quality;
+    EXPECT_EQ(stepper.mesh().user_positions()[41], places[1]) << quality;
+    EXPECT_GT(outcome.record.repair.quality_moves, 0) << quality;
+    ASSERT_TRUE(stepper.step(stepper.mesh().user_positions(), 0.1));  // names none
+    if (quality == std::string("smooth")) {
+      EXPECT_NE(stepper.mesh().user_positions()[41], places[1]);
+    }
+  }
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "tests/sim/helpers.h"
 
 namespace kinemesh {
@@ -247,6 +249,24 @@ TEST(Scenario, IsReadFromItsFileAndItsMeshFoundBesideIt) {
   EXPECT_EQ(s.mesh.file, folder / "mesh.off");
 }
 
+TEST(Scenario, OfAMeshThatIsThereSaysWhatMovesAndNoMore) {
+  const std::string body = "[[body]]\non = 'marker:hole'\n";
+  const Scenario scenario = parse_motions(body + "[border]\ndefault = 'slide'\n", "mine");
+  ASSERT_EQ(scenario.bodies.size(), 1u);
+  EXPECT_EQ(scenario.interior.options.follow, Follow::Harmonic);
+  EXPECT_EQ(scenario.repair.quality, "angles");
+  EXPECT_EQ(scenario.border.conditions.otherwise, BorderCondition::Slide);
+  EXPECT_TRUE(scenario.mesh.file.empty() && scenario.mesh.shape.empty());
+  for (const std::string table : {"mesh", "time", "output"}) {
+    try {
+      parse_motions(body + "[" + table + "]\n", "mine");
+      ADD_FAILURE() << table;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::StartsWith("mine:3: " + table + ": "));
+    }
+  }
+}
+
 // Written out, read back and written out again: the same text, so the same run.
 TEST(Scenario, SurvivesBeingWrittenOut) {
   const std::string all =
@@ -267,6 +287,37 @@ TEST(Scenario, SurvivesBeingWrittenOut) {
     EXPECT_EQ(two.time.dt, one.time.dt);
     EXPECT_EQ(two.motions[0].blend, one.motions[0].blend);
     EXPECT_EQ(two.border.conditions.by_marker, one.border.conditions.by_marker);
+  }
+}
+
+// All that is Unicode may be in a name.
+TEST(Scenario, SurvivesBeingWrittenOutWhateverItsNames) {
+  std::vector<std::string> names{"",       "=",   " = ", "a.b",     "[x]",  "#",
+                                 "\"\"\"", "'''", "\\t", "\\u0041", "\r\n", "'\\"};
+  for (char c = 0; c >= 0 && c < 127; ++c) names.emplace_back(1, c);
+  names.emplace_back("\x7f");
+  for (const char* other : {"\xc2\x85", "\xe2\x80\xa8", "\xef\xbb\xbf", "\xf0\x9f\x98\x80", "\xc3\xa4"})
+    names.emplace_back(other);
+  const std::vector<std::string> parts = names;
+  std::mt19937 random(7);
+  for (int n = 0; n < 500; ++n) {
+    std::string name;
+    for (int i = 0; i < 5; ++i) name += parts[random() % parts.size()];
+    names.push_back(name);
+  }
+  for (const std::string& name : names) {
+    Scenario one = parse_scenario(smallest + "[[body]]\non = 'marker:a'\n", "/x/a.toml");
+    if (name != "default") one.border.conditions.by_marker[name] = BorderCondition::Slide;
+    one.bodies[0].on = {"marker:" + name, name};
+    one.motions[0].on = {"marker:m" + name};
+    one.mesh.shape.clear();
+    one.mesh.file = "/y/m" + name;
+    const std::string written = to_toml(one);
+    const Scenario two = parse_scenario(written, "/elsewhere/scenario.toml");
+    EXPECT_EQ(two.border.conditions.by_marker, one.border.conditions.by_marker) << written;
+    EXPECT_EQ(two.bodies[0].on, one.bodies[0].on) << written;
+    EXPECT_EQ(two.motions[0].on, one.motions[0].on) << written;
+    EXPECT_EQ(two.mesh.file, one.mesh.file.lexically_normal()) << written;
   }
 }
 

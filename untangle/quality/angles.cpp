@@ -104,7 +104,9 @@ AngleUpkeep::AngleUpkeep(const Mesh& mesh, const AngleOptions& options, VertexFr
 }
 
 QualityCounts AngleUpkeep::improve(Mesh& mesh, const QualityInputs& inputs) {
+  stays_ = inputs.stays;
   const AngleCounts counts = run(mesh, inputs.minima);
+  stays_ = {};
   return {counts.flips, counts.moves};
 }
 
@@ -250,6 +252,7 @@ void AngleUpkeep::find_places(const Mesh& mesh) {
 AngleUpkeep::Freedom AngleUpkeep::freedom_of(const Mesh& mesh, int v) const {
   if (mesh.is_fixed(v) || mesh.user_vertex(v) == none) return Freedom::None;
   if (!freedom_.held.empty() && freedom_.held[v]) return Freedom::None;
+  if (!stays_.empty() && stays_[v]) return Freedom::None;
   if (freedom_.tangents.contains(v)) return Freedom::Line;
   return is_movable(mesh, v) ? Freedom::Plane : Freedom::None;
 }

@@ -120,7 +120,8 @@ class AngleUpkeep : public QualityPass {
 
   AngleOptions options_;
   VertexFreedom freedom_;
-  double wanted_;  // tangent
+  std::span<const char> stays_;  // in this call, see QualityInputs
+  double wanted_;                // tangent
   FaceMinima own_minima_;
 
   std::vector<int> bad_;  // faces

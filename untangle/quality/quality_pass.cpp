@@ -19,8 +19,9 @@ class SmoothQuality : public QualityPass {
  public:
   SmoothQuality(const Mesh& mesh, const VertexFreedom& freedom) : sweeps_(mesh, freedom.held) {}
   bool moves_vertices() const override { return true; }
-  QualityCounts improve(Mesh& mesh, const QualityInputs&) override {
-    return {.moves = sweeps_.run(mesh, {.method = SmoothingMethod::Laplacian, .max_sweeps = 5}).moves};
+  QualityCounts improve(Mesh& mesh, const QualityInputs& inputs) override {
+    const SmoothingOptions options{.method = SmoothingMethod::Laplacian, .max_sweeps = 5};
+    return {.moves = sweeps_.run(mesh, options, inputs.stays).moves};
   }
   std::span<const MovedVertex> moved_vertices() const override { return sweeps_.moved_vertices(); }
 

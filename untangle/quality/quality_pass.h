@@ -23,6 +23,8 @@ struct QualityInputs {
   // Of the mesh as it is, all that is outdated marked so, or null. What is outdated may be measured; what the
   // pass changes is not marked: flipped_faces() and the faces around moved_vertices().
   FaceMinima* minima = nullptr;
+  std::span<const char>
+      stays{};  // per vertex: is not moved by this call, besides those never moved; empty: none
 };
 
 struct QualityCounts {

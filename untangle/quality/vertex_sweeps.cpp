@@ -43,7 +43,9 @@ bool try_place(Mesh& mesh, int vertex, const Point& place, const VertexSweeps::D
 
 }  // namespace
 
-VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& options) {
+VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& options,
+                                       std::span<const char> stays) {
+  stays_ = stays;
   std::fill(is_moved_.begin(), is_moved_.end(), false);
   moved_.clear();
   for (int v = 0; v < mesh.n_vertices(); ++v) restless_[v] = may_move(mesh, v);
@@ -58,7 +60,7 @@ VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& optio
 }
 
 bool VertexSweeps::may_move(const Mesh& mesh, int vertex) const {
-  return is_movable(mesh, vertex) && (held_.empty() || !held_[vertex]);
+  return is_movable(mesh, vertex) && (held_.empty() || !held_[vertex]) && (stays_.empty() || !stays_[vertex]);
 }
 
 bool VertexSweeps::visit(Mesh& mesh, int v, const SmoothingOptions& options) {

@@ -33,8 +33,8 @@ class VertexSweeps {
     double least_distance, tangent;
   };
 
-  // Pre: the mesh is valid and has the number of vertices of the one this was made for.
-  Counts run(Mesh& mesh, const SmoothingOptions& options);
+  // Pre: the mesh is valid and has the number of vertices of the one this was made for. stays: see QualityInputs.
+  Counts run(Mesh& mesh, const SmoothingOptions& options, std::span<const char> stays = {});
 
   // By the last run, each once, in no order.
   std::span<const MovedVertex> moved_vertices() const { return moved_; }
@@ -46,8 +46,9 @@ class VertexSweeps {
   bool move_to_optimum(Mesh& mesh, int vertex, const Demand& demand);
 
   std::vector<char> held_;
-  std::vector<char> restless_;  // per vertex: free, and something around it has changed since it was visited
-  std::vector<char> is_moved_;  // per vertex
+  std::span<const char> stays_;  // in this run
+  std::vector<char> restless_;   // per vertex: free, and something around it has changed since it was visited
+  std::vector<char> is_moved_;   // per vertex
   std::vector<MovedVertex> moved_;
   std::vector<LinkEdge> link_;  // around the vertex at hand
 };

@@ -3,6 +3,8 @@
 
 const $ = (id) => document.getElementById(id);
 
+const isRepair = (patch) => patch.regions.length > 0;  // and no flips alone
+
 class Page {
   constructor(data, frames) {
     this.data = data;
@@ -20,7 +22,7 @@ class Page {
     this.startPlots();
     this.listen();
     if (!this.player) return;
-    this.goTo(this.firstTangled());
+    this.goTo(this.firstToSee());
     this.player.fitToChanges();
   }
 
@@ -35,13 +37,16 @@ class Page {
     this.player.isDark = this.isDark;
     this.player.hovered = (x, y) => { $("hover").textContent = x == null ? "" : this.describe(this.player.pick(x, y)); };
     $("scrub").max = this.frames.list.length - 1;
-    $("views").hidden = !this.frames.list.some((f) => f.patches.length);
+    $("views").hidden = !this.frames.list.some((f) => f.patches.some(isRepair));
     $("largest").hidden = $("views").hidden;
     this.showStage();
   }
 
-  // So that there is something to look at.
-  firstTangled() { return Math.max(0, this.frames.list.findIndex((f) => f.patches.length > 0)); }
+  // So that there is something to look at: the first tangle, or else the most flips.
+  firstToSee() {
+    const { list } = this.frames, first = list.findIndex((f) => f.patches.some(isRepair));
+    return first < 0 ? list.reduce((best, f, i) => (f.patches.length > list[best].patches.length ? i : best), 0) : first;
+  }
 
   startPlots() {
     this.plots?.clear();
@@ -68,10 +73,18 @@ class Page {
     const { info, list } = this.frames, n = Math.min(list.length - 1, Math.max(0, number)), frame = info.frames[n];
     this.player.show(n);
     $("scrub").value = n;
-    const replaced = list[n].patches.reduce((sum, p) => sum + p.changes.length / 7, 0);
-    const regions = list[n].regions.length || list[n].patches.length;
-    $("now").textContent = `step ${frame.step}, time ${short(frame.time)}: ${replaced} replaced in ${regions} region${regions === 1 ? "" : "s"}`;
+    $("now").textContent = `step ${frame.step}, time ${short(frame.time)}${info.from === "patches" ? ": " + this.tellChanges(list[n], frame.step) : ""}`;
     this.plots?.moveTo(frame.time);
+  }
+
+  tellChanges({ patches, regions }, step) {
+    const repaired = patches.filter(isRepair), faces = repaired.reduce((sum, p) => sum + p.changes.length / 7, 0);
+    const n = regions.length || repaired.length, { steps } = this.data, row = steps ? steps.step.lastIndexOf(step) : -1;
+    const parts = [[faces, `${faces} replaced in ${n} region${n === 1 ? "" : "s"}`]];
+    for (const [values, word] of [[steps?.quality_flips, "flip"], [steps?.quality_moves, "move"]])
+      if (values?.[row]) parts.push([values[row], `${values[row]} ${word}${values[row] === 1 ? "" : "s"}`]);
+    const told = parts.filter(([count]) => count > 0);
+    return (told.length ? told : parts).map(([, text]) => text).join(", ");
   }
 
   play(isOn = !this.timer) {
@@ -96,7 +109,7 @@ class Page {
     if (stage === TANGLE) add("#d55e00", "inverted triangles, before the repair");
     if (stage === SHADOW) add("#d55e00", "their shadow alone");
     if (stage === BEFORE) add("#e69f00", "triangles that go (R*), drawn over each other");
-    if (stage === AFTER && colouring === 0) add("#e69f00", this.frames.info.from === "patches" ? "replaced in this step" : "replaced since the last mesh written");
+    if (stage === AFTER && colouring === 0) add("#e69f00", this.frames.info.from === "patches" ? "replaced or flipped in this step" : "replaced since the last mesh written");
     if (stage === AFTER && colouring === 2) { add("#00224e", "smallest angle 0°"); add("#7c7b78", "30°"); add("#fee838", "60°"); }
     if (stage === AFTER && colouring === 1) [...new Set(this.frames.labels)].slice(0, 8).forEach((label) => add(`rgb(${LABELS[Math.abs(label) % 6].map((c) => c * (this.isDark ? 107 : 255))})`, `label ${label}`));
     $("legend").innerHTML = entries.join("");

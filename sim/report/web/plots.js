@@ -62,6 +62,8 @@ class Plots {
     this.list.push(plot);
   }
 
+  tell(text) { const p = document.createElement("p"); p.className = "told"; p.textContent = text; this.place.append(p); }
+
   watchClicks(plot) {
     let down = null;
     plot.over.addEventListener("mousedown", (e) => { down = e.offsetX; });
@@ -100,9 +102,22 @@ class Plots {
   }
 }
 
-const PHASES = ["move", "detect", "explore", "triangulate", "splice", "quality"];
+const PHASES = ["move", "interior", "detect", "explore", "triangulate", "splice", "quality"];
 
 function addRunPlots(plots, { steps, sizes }) {
+  const isAny = (values) => values?.some((n) => n > 0), isTangled = isAny(steps.inverted) || isAny(steps.degenerate);
+  if (isTangled) addTanglePlots(plots, steps, sizes);
+  plots.add("smallest angle, degrees", steps.time, [{ label: "degrees", values: steps.min_angle_deg }]);
+  if (isAny(steps.quality_moves) || isAny(steps.quality_flips)) {
+    plots.add("moved and flipped for quality", steps.time, [["moves of vertices", steps.quality_moves], ["flipped edges", steps.quality_flips]]
+      .filter(([, values]) => values).map(([label, values]) => ({ label, values })));
+  }
+  const phases = PHASES.filter((name) => isAny(steps[name + "_ms"]));
+  plots.addStacked("time of a step, ms", steps.time, phases.map((name) => ({ label: name, values: steps[name + "_ms"] })));
+  if (!isTangled) plots.tell("No step has turned a triangle over: nothing had to be repaired.");
+}
+
+function addTanglePlots(plots, steps, sizes) {
   const share = steps.replaced.map((n, i) => (steps.faces[i] > 0 ? (100 * n) / steps.faces[i] : null));
   plots.add("inverted and flat triangles", steps.time, [{ label: "inverted", values: steps.inverted }, { label: "flat", values: steps.degenerate }]);
   if (sizes) {
@@ -111,8 +126,6 @@ function addRunPlots(plots, { steps, sizes }) {
       { label: "median", values: sizes.median }, { label: "regions", values: sizes.count }], { log: true });
   }
   plots.add("replaced, % of the domain's triangles", steps.time, [{ label: "%", values: share }]);
-  plots.add("smallest angle, degrees", steps.time, [{ label: "degrees", values: steps.min_angle_deg }]);
-  plots.addStacked("time of a step, ms", steps.time, PHASES.map((name) => ({ label: name, values: steps[name + "_ms"] })));
 }
 
 const median = (values) => { const sorted = values.filter((v) => v != null).sort((a, b) => a - b); return sorted.length ? sorted[sorted.length >> 1] : null; };
