@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 # In the order of the table.
-SUBJECTS = "steps detection regions fixed-tangle explored local-growth threads interior memory huge file".split()
+SUBJECTS = "steps detection regions fixed-tangle explored local-growth threads interior angles memory huge file".split()
 
 
 def machine():

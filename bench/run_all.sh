@@ -86,6 +86,7 @@ else
   aims local-growth 400000 20000
   aims threads 1000000 20000
   aims interior 1000000 20000
+  aims angles 10000 2000
   aims memory 1000000 100000
   aims file 1000000 20000
 

@@ -1,6 +1,7 @@
 #include "sim/run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <exception>
 
@@ -200,10 +201,20 @@ class Runner {
     const bool has_half = steps_.reject();
     summary_.rejected = steps_.state().rejected;
     if (!has_half) {
-      stop(why_stopped(outcome) + why_not_halved(outcome.record.dt), false);
+      stop(why_stopped(outcome) + what_may_help(outcome) + why_not_halved(outcome.record.dt), false);
       dump(end_time, why_stopped(outcome), outcome.defect ? outcome.defect->detail : "");
     }
     log_.write(outcome.record);
+  }
+
+  std::string what_may_help(const StepOutcome& outcome) const {
+    if (!outcome.defect || outcome.defect->kind != DefectKind::Escaped) return "";
+    std::vector<std::string> ways{scenario_.time.adaptive ? "a smaller min_dt"
+                                                          : "shorter steps ([time] dt, adaptive)"};
+    if (scenario_.interior.options.follow == Follow::None)
+      ways.push_back("an interior that follows ([interior] follow)");
+    if (scenario_.repair.quality != "angles") ways.push_back("[repair] quality = \"angles\"");
+    return fmt::format("; {} may help", fmt::join(ways, " or "));
   }
 
   std::string why_not_halved(double dt) const {
@@ -360,26 +371,13 @@ RunSummary go(const Scenario& scenario, const RunOptions& options, RunObserver& 
   }
 }
 
-std::string what_helps(DefectKind kind) {
-  switch (kind) {
-    case DefectKind::Escaped:
-      return "; shorter steps ([time] dt, adaptive), an interior that follows ([interior] follow) or "
-             "[repair] quality = "
-             "\"angles\" may help";
-    case DefectKind::NonFinitePosition:
-      return must_change;
-    default:
-      return "";
-  }
-}
-
 }  // namespace
 
 std::string why_stopped(const StepOutcome& outcome) {
   const std::string step = "step " + std::to_string(outcome.record.step);
   if (const auto& defect = outcome.defect)
     return step + (is_stuck(*defect) ? " stays tangled: " : " has no valid mesh: ") + defect->message() +
-           what_helps(defect->kind);
+           (defect->kind == DefectKind::NonFinitePosition ? must_change : "");
   return fmt::format("{} at time {} has regions of {:.4g} of all faces, max_region_share is {}", step,
                      outcome.record.time, outcome.too_large->share, outcome.too_large->limit);
 }

@@ -50,6 +50,7 @@ void explored(int n);
 void local_growth(int n);  // up to n
 void two_threads(int n);
 void interior(int n);
+void angles(int n);
 void memory(int n);
 void huge(int n);
 void first_step_of_file(int n);

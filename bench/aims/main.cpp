@@ -27,6 +27,7 @@ constexpr Subject subjects[] = {
     {"local-growth", local_growth, 400'000},
     {"threads", two_threads, 1'000'000},
     {"interior", interior, 1'000'000},
+    {"angles", angles, 10'000},
     {"memory", memory, 1'000'000},
     {"huge", huge, 50'000'000},
     {"file", first_step_of_file, 1'000'000},
