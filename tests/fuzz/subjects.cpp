@@ -186,7 +186,7 @@ Checkpoint sample_checkpoint() {
 
 Subject checkpoint_subject(const fs::path& folder) {
   const std::string sample = format_checkpoint(sample_checkpoint());
-  const binary::Kind kind{"KMCHKPT\n", 3, "checkpoint"};
+  const binary::Kind kind{"KMCHKPT\n", 4, "checkpoint"};
   return {"checkpoint", [=](Dice& dice) { return resealed(sample, kind, dice); },
           [=](const std::string& content) {
             write(folder / "checkpoint.bin", content);

@@ -163,11 +163,11 @@ TEST(Checkpoint, IsRefusedWithAnyOtherLength) {
 
 // Sealed rightly, by a program of another version or with too little inside.
 TEST(Checkpoint, IsRefusedInAnotherLayout) {
-  const binary::Kind ours{"KMCHKPT\n", 3, "checkpoint"}, later{"KMCHKPT\n", 9, "checkpoint"};
+  const binary::Kind ours{"KMCHKPT\n", 4, "checkpoint"}, later{"KMCHKPT\n", 9, "checkpoint"};
   const std::string whole = format_checkpoint(small_checkpoint());
   const std::string payload(binary::unseal(ours, whole));
   EXPECT_EQ(error_of(binary::seal(ours, payload)), "none");
-  EXPECT_THAT(error_of(binary::seal(later, payload)), HasSubstr("version 9 of the layout, 3 expected"));
+  EXPECT_THAT(error_of(binary::seal(later, payload)), HasSubstr("version 9 of the layout, 4 expected"));
   EXPECT_THAT(error_of(binary::seal(ours, payload + "x")), HasSubstr("more bytes"));
   for (size_t length = 0; length < payload.size(); length += 7)
     EXPECT_NE(error_of(binary::seal(ours, payload.substr(0, length))), "none");
