@@ -56,6 +56,39 @@ animation passing "$(seq 2 2 50)" gallery_passing.gif --width 420
 animation tank "$(seq 2 2 50)" gallery_tank.gif --width 420
 animation flap "$(seq 4 4 100)" gallery_flap.gif --width 420
 
+# notion EXAMPLE NAME STEP TITLE "ARGUMENTS OF draw" [ARGUMENTS OF run]: of the example of that number in docs/scenarios.md
+notion() {
+  awk -v n="$1" '/^```toml/ { k++; on = (k == n); next } /^```/ { on = 0 } on' docs/scenarios.md >"$work/example.toml"
+  [[ $* == *'quality="none"'* ]] && sed -i '/^angle/d' "$work/example.toml"
+  kinemesh run "$work/example.toml" -o "$work/example" --force -q --set output.patches=true "${@:6}"
+  # shellcheck disable=SC2086
+  kinemesh draw "$work/example" --step "$3" --title "$4" $5 -o "$work/notion_$2.png" >"$work/log"
+}
+
+# notions FILE NAMES...: side by side
+notions() {
+  local files=() name
+  for name in "${@:2}"; do files+=("$work/notion_$name.png"); done
+  convert "${files[@]}" +append +dither -colors 32 -define png:exclude-chunks=date,time "PNG8:docs/images/$1.png"
+}
+
+channel="--zoom=0.2,0,1.8,1 --width 520" small="--set mesh.vertices=700"
+notion 2 body_start 0 "t = 0" "--zoom=-1.7,-0.9,1.3,0.9 --width 520"
+notion 2 body 40 "t = 0.4" "--zoom=-1.7,-0.9,1.3,0.9 --width 520"
+notion 1 harmonic 50 harmonic "$channel" $small
+notion 1 elastic 50 elastic "$channel" $small --set 'interior.follow="elastic"'
+notion 1 none 30 none "$channel" $small --set 'repair.quality="none"'
+notion 1 angles 30 "angles, 25 degrees" "$channel" $small
+notion 3 slide_start 0 "t = 0" "--zoom=-0.02,-0.02,1.02,1.02 --width 420" --set mesh.vertices=300
+notion 3 slide 50 "t = 1" "--zoom=-0.02,-0.02,1.02,1.02 --width 420" --set mesh.vertices=300
+notion 4 motion_start 0 "t = 0" "--width 420" $small
+notion 4 motion 30 "t = 0.6" "--width 420" $small
+notions scenario_body body_start body
+notions scenario_interior harmonic elastic
+notions scenario_angles none angles
+notions scenario_slide slide_start slide
+notions scenario_motion motion_start motion
+
 build/$preset/examples/example_pendulum "$work/pendulum.su2"
 kinemesh draw "$work/pendulum.su2" --zoom=0,-0.02,2.4,1.02 -o "$work/pendulum.png"
 convert "$work/pendulum.png" +dither -colors 32 -define png:exclude-chunks=date,time PNG8:docs/images/gallery_pendulum.png

@@ -20,7 +20,7 @@ namespace {
 constexpr int repeats = 9;
 constexpr double wanted = 25.0;  // degrees
 
-constexpr const char* turning_airfoil = R"(
+constexpr const char* turning_airfoil = R"toml(
 [mesh]
 shape = "airfoil"
 vertices = {}
@@ -35,7 +35,7 @@ steps = 60
 dt = 0.01
 [repair]
 quality = "delaunay"
-)";
+)toml";
 
 Mesh after_its_steps(int n) {
   const Scenario scenario = parse_scenario(fmt::format(turning_airfoil, n), "turning_airfoil.toml");

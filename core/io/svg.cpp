@@ -210,12 +210,12 @@ class Drawing {
   // Title on the left, what the colours mean on the right.
   std::string legend() const {
     std::string text;
-    const auto add = [&](std::size_t n, const char* what, const char* colour) {
+    const auto add = [&](std::size_t n, const std::string& what, const char* colour) {
       if (n == 0) return;
       if (!text.empty()) text += "&#160;&#160; ";
       text += std::string("<tspan fill=\"") + colour + "\">&#9632;</tspan> " + std::to_string(n) + ' ' + what;
     };
-    add(replaced_.size(), "replaced", replaced_colour);
+    add(replaced_.size(), io::xml_text(printable(options_.replaced_label, most_title)), replaced_colour);
     add(inverted_.size(), "inverted", inverted_colour);
     add(flat_.size(), "degenerate", inverted_colour);
     return text;

@@ -19,6 +19,7 @@ struct ViewBox {
 
 struct SvgOptions {
   std::span<const std::uint8_t> replaced = {};  // per face, or empty
+  std::string replaced_label = "replaced";      // in the legend, behind their number
   double width = 1000.0;                        // of the drawing, in pixels; the height follows
   std::optional<ViewBox> view = {};             // default: the whole mesh
   std::string title = {};                       // above the drawing; empty: none

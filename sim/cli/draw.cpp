@@ -159,6 +159,7 @@ std::string figure_of_step(const DrawArguments& arguments) {
   const draw::StepOfRun found = draw::step_of_run(arguments.mesh.path, arguments.step);
   SvgOptions options;
   options.replaced = found.replaced;
+  options.replaced_label = "replaced or flipped";
   options.width = arguments.width;
   options.view = arguments.view();
   options.title = arguments.title.empty() ? fmt::format("step {}, time {:.6g}", arguments.step, found.time)

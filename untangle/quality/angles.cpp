@@ -170,26 +170,22 @@ void AngleUpkeep::propose(const Mesh& mesh) {
   std::erase_if(proposals_, [](const auto& proposal) { return proposal.is_none(); });
 }
 
-// Those of before are still right where nothing has changed.
+// What was found before is still right where nothing has changed.
 void AngleUpkeep::propose_jointly(const Mesh& mesh) {
-  std::ranges::sort(bad_);
-  std::erase_if(joints_, [&](const Joint& joint) {
-    return !std::ranges::binary_search(bad_, joint.face) || is_outdated(joint);
-  });
-  const std::size_t n_known = joints_.size();
-  std::vector<int> known;
-  for (const Joint& joint : joints_) known.push_back(joint.face);
-  std::ranges::sort(known);
+  std::erase_if(joints_, [&](const auto& entry) { return is_outdated(entry.second); });
+  std::vector<Joint*> asked;
   for (const int face : bad_)
-    if (!std::ranges::binary_search(known, face)) joints_.push_back({.face = face});
-  const std::span<Joint> asked = std::span(joints_).subspan(n_known);
-  for_all(static_cast<int>(asked.size()), joint_grain, [&](int i) { find_joint(mesh, asked[i]); });
-  for (std::size_t i = 0; i < joints_.size(); ++i)
-    if (joints_[i].after != 0.0) proposals_.push_back(joint_move(mesh, static_cast<int>(i)));
+    if (const auto [at, is_new] = joints_.try_emplace(face, Joint{.face = face}); is_new)
+      asked.push_back(&at->second);
+  for_all(static_cast<int>(asked.size()), joint_grain, [&](int i) { find_joint(mesh, *asked[i]); });
+  for (const int face : bad_)
+    if (const Joint& joint = joints_.at(face); joint.after != 0.0)
+      proposals_.push_back(proposal_of(mesh, joint));
 }
 
 bool AngleUpkeep::is_outdated(const Joint& joint) const {
-  return std::ranges::any_of(joint.faces, [&](int face) { return round_[face] > joint.round; });
+  const auto has_changed = [&](int face) { return round_[face] > joint.round; };
+  return has_changed(joint.face) || std::ranges::any_of(joint.faces, has_changed);
 }
 
 // As far around the face as it takes, but not beyond a worse one, which looks around itself.
@@ -310,12 +306,11 @@ AngleUpkeep::Proposal AngleUpkeep::flip_of(const Mesh& mesh, int h) const {
   return {.before = before, .after = after, .users = {none, low, high}, .edge = edge};
 }
 
-AngleUpkeep::Proposal AngleUpkeep::joint_move(const Mesh& mesh, int number) const {
-  const Joint& joint = joints_[number];
+AngleUpkeep::Proposal AngleUpkeep::proposal_of(const Mesh& mesh, const Joint& joint) const {
   std::array<int, 3> users = mesh.triangles()[joint.face];
   for (int& v : users) v = mesh.user_vertex(v);
   std::ranges::sort(users);
-  return {.before = joint.before, .after = joint.after, .users = users, .joint = number};
+  return {.before = joint.before, .after = joint.after, .users = users, .joint = &joint};
 }
 
 void AngleUpkeep::choose(const Mesh& mesh) {
@@ -335,7 +330,7 @@ bool AngleUpkeep::take(const Mesh& mesh, const Proposal& proposal) {
     else if (proposal.place != none)
       for_each_around(mesh, places_[proposal.place].vertex, visit);
     else
-      std::ranges::for_each(joints_[proposal.joint].faces, visit);
+      std::ranges::for_each(proposal.joint->faces, visit);
   };
   bool is_free = true;
   for_each_touched([&](int face) { is_free &= round_[face] != n_rounds_; });
@@ -367,7 +362,7 @@ void AngleUpkeep::carry_out(Mesh& mesh, AngleCounts& counts) {
 
 std::span<const AngleUpkeep::Place> AngleUpkeep::moves_of(const Proposal& proposal) const {
   if (proposal.place != none) return {&places_[proposal.place], 1};
-  if (proposal.joint != none) return joints_[proposal.joint].moves;
+  if (proposal.joint) return proposal.joint->moves;
   return {};
 }
 

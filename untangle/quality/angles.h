@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -83,7 +84,7 @@ class AngleUpkeep : public QualityPass {
     std::array<int, 3> users{none, none, none};  // of the vertex, the edge or the face, ascending at the end
     int edge = none;                             // to be flipped
     int place = none;                            // or where to move
-    int joint = none;                            // or where several move
+    const Joint* joint = nullptr;                // or where several move
 
     bool is_none() const { return users[2] == none; }
     bool comes_before(const Proposal& other) const;  // by their keys
@@ -109,7 +110,7 @@ class AngleUpkeep : public QualityPass {
   Proposal best_at(const Mesh& mesh, int face) const;
   Proposal flip_of(const Mesh& mesh, int halfedge) const;
   Proposal move_of(const Mesh& mesh, int vertex) const;
-  Proposal joint_move(const Mesh& mesh, int number) const;
+  Proposal proposal_of(const Mesh& mesh, const Joint& joint) const;
   void choose(const Mesh& mesh);
   bool take(const Mesh& mesh, const Proposal& proposal);
   void carry_out(Mesh& mesh, AngleCounts& counts);
@@ -135,7 +136,7 @@ class AngleUpkeep : public QualityPass {
   std::vector<int> place_of_;  // per vertex: the number of its place as things are; or none
   std::size_t n_found_ = 0;    // places, the first ones
 
-  std::vector<Joint> joints_;  // of bad faces, since all were stuck for the first time
+  std::map<int, Joint> joints_;  // by the bad face; since all were stuck for the first time
 
   std::vector<int> flipped_;      // faces
   std::vector<char> is_flipped_;  // per face
