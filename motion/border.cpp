@@ -13,6 +13,13 @@ std::string quoted(const Mesh& mesh, int marker) {
   return marker == none ? "the border without a marker" : "marker \"" + mesh.marker_names()[marker] + "\"";
 }
 
+// What slides.
+struct SlidingBorder {
+  std::vector<SlideLine> lines;
+  std::vector<std::string> names;   // what each is a part of
+  std::unordered_set<int> corners;  // vertices on lines that do not slide for that alone
+};
+
 // What the border says about every vertex, before frame and fixed vertices.
 class BorderReader {
  public:
@@ -22,8 +29,7 @@ class BorderReader {
       if (!names.contains(name)) throw ParameterError(name, "the mesh has no marker \"" + name + "\"");
   }
 
-  // Conditions of all vertices; the lines of those that slide.
-  std::vector<SlideLine> read(std::vector<BorderCondition>& at) const {
+  SlidingBorder read(std::vector<BorderCondition>& at) const {
     std::map<int, std::vector<Edge>> sliding;  // by marker
     const auto apply = [&](const Edge& edge, int marker, BorderCondition condition) {
       for (const int v : edge) at[v] = std::max(at[v], condition);
@@ -31,10 +37,10 @@ class BorderReader {
     };
     read_named(apply);
     read_others(apply);
-    std::vector<SlideLine> lines;
-    for (const auto& [marker, edges] : sliding) add_lines(marker, edges, lines);
-    hold_corners(lines, at);
-    return lines;
+    SlidingBorder border;
+    for (const auto& [marker, edges] : sliding) add_lines(marker, edges, border);
+    hold_corners(border, at);
+    return border;
   }
 
  private:
@@ -56,9 +62,12 @@ class BorderReader {
         apply({c.from, c.to}, c.marker, conditions_.otherwise);
   }
 
-  void add_lines(int marker, const std::vector<Edge>& edges, std::vector<SlideLine>& lines) const {
+  void add_lines(int marker, const std::vector<Edge>& edges, SlidingBorder& border) const {
     try {
-      for (SlideLine& line : slide_lines(mesh_, edges)) lines.push_back(std::move(line));
+      for (SlideLine& line : slide_lines(mesh_, edges)) {
+        border.lines.push_back(std::move(line));
+        border.names.push_back(quoted(mesh_, marker));
+      }
     } catch (const InputError& error) {
       throw ParameterError(marker == none ? "default" : mesh_.marker_names()[marker],
                            quoted(mesh_, marker) + " cannot slide: " + error.what());
@@ -66,13 +75,16 @@ class BorderReader {
   }
 
   // A vertex of two lines slides where they go on in one direction.
-  static void hold_corners(const std::vector<SlideLine>& lines, std::vector<BorderCondition>& at) {
+  static void hold_corners(SlidingBorder& border, std::vector<BorderCondition>& at) {
     std::unordered_map<int, Point> directions;
-    for (const SlideLine& line : lines) {
-      for (const int v : line.corners()) at[v] = BorderCondition::Fixed;
+    const auto hold = [&](int v) {
+      if (std::exchange(at[v], BorderCondition::Fixed) == BorderCondition::Slide) border.corners.insert(v);
+    };
+    for (const SlideLine& line : border.lines) {
+      for (const int v : line.corners()) hold(v);
       for (const auto& [v, direction] : line.ends()) {
         const auto [other, is_first] = directions.emplace(v, direction);
-        if (!is_first && !are_parallel(other->second, direction)) at[v] = BorderCondition::Fixed;
+        if (!is_first && !are_parallel(other->second, direction)) hold(v);
       }
     }
   }
@@ -93,15 +105,26 @@ BorderCondition parse_border_condition(std::string_view name, const std::string&
 
 Freedom::Freedom(const Mesh& mesh, const BorderConditions& conditions)
     : conditions_(mesh.n_vertices(), BorderCondition::Moving) {
-  lines_ = BorderReader(mesh, conditions).read(conditions_);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (mesh.is_fixed(v) || mesh.user_vertex(v) == none) conditions_[v] = BorderCondition::Fixed;
+  SlidingBorder border = BorderReader(mesh, conditions).read(conditions_);
+  lines_ = std::move(border.lines);
+  names_ = std::move(border.names);
+  corners_ = std::move(border.corners);
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    if (!mesh.is_fixed(v) && mesh.user_vertex(v) != none) continue;
+    conditions_[v] = BorderCondition::Fixed;
+    corners_.erase(v);
+  }
   for (std::size_t i = 0; i < lines_.size(); ++i)
     for (const int v : lines_[i].vertices()) line_of_.emplace(v, static_cast<int>(i));
 }
 
 Point Freedom::tangent(int vertex, const Point& x) const {
   return lines_[line_of_.at(vertex)].tangent_near(x);
+}
+
+double Freedom::distance_from_line(int vertex, const Point& x) const {
+  const SlideLine& line = lines_[line_of_.at(vertex)];
+  return glm::distance(x, line.at(line.parameter_near(x)));
 }
 
 Point Freedom::on_line(int vertex, const Point& x0, const Point& x1) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "core/mesh.h"
@@ -41,6 +42,9 @@ class Freedom {
 
   BorderCondition of(int vertex) const { return conditions_[vertex]; }
 
+  // It is fixed only since its border slides in two directions there.
+  bool is_corner(int vertex) const { return corners_.contains(vertex); }
+
   // The part of `v` that the vertex at x may follow. Horizontal and vertical borders keep their constant
   // coordinate exactly; on others a vertex leaves the line by rounding, until it is put back by on_line.
   Point allowed(int vertex, const Point& x, const Point& v) const {
@@ -55,6 +59,10 @@ class Freedom {
   // and vertical lines keep x1 bit by bit.
   Point on_line(int vertex, const Point& x0, const Point& x1) const;
 
+  // Of a vertex on a line: from x to the nearest point of it; and which border that is, `marker "top"`.
+  double distance_from_line(int vertex, const Point& x) const;
+  const std::string& border_of(int vertex) const { return names_[line_of_.at(vertex)]; }
+
   std::span<const SlideLine> lines() const { return lines_; }
 
  private:
@@ -62,6 +70,8 @@ class Freedom {
 
   std::vector<BorderCondition> conditions_;  // per vertex
   std::vector<SlideLine> lines_;
+  std::vector<std::string> names_;  // of the border that each line is a part of
+  std::unordered_set<int> corners_;
   std::unordered_map<int, int> line_of_;  // of sliding vertices
 };
 

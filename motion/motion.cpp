@@ -147,7 +147,9 @@ void Motion::own_vertices(const Mesh& mesh) {
   for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
     int n_fixed = 0;
     for (const int v : bodies_[b].vertices()) {
-      if (freedom_.of(v) == BorderCondition::Fixed)
+      if (freedom_.is_corner(v))
+        cornered_.push_back({v, b});
+      else if (freedom_.of(v) == BorderCondition::Fixed)
         ++n_fixed;
       else if (owner_[v] == none)
         owner_[v] = b;
@@ -246,7 +248,7 @@ void Motion::advance(std::span<const Point> x0, const TimeStep& step, std::span<
 
 void Motion::put_on(const SlideLine& line, std::span<const Point> x0, std::span<Point> x1) const {
   for (const int v : line.vertices())
-    if (freedom_.of(v) == BorderCondition::Slide) x1[v] = line.moved(x0[v], x1[v]);
+    if (freedom_.of(v) == BorderCondition::Slide && x1[v] != x0[v]) x1[v] = line.moved(x0[v], x1[v]);
 }
 
 void Motion::move_bodies(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const {
@@ -258,11 +260,14 @@ void Motion::move_bodies(std::span<const Point> x0, const TimeStep& step, std::s
       if (owner_[v] != b) continue;
       x1[v] = place[v];
       if (freedom_.of(v) != BorderCondition::Slide) continue;
-      const Point way = x1[v] - initial_[v], along = freedom_.allowed(v, initial_[v], way);
-      if (glm::distance(way, along) > same_within * diagonal_)
-        throw InputError(fmt::format("body {} would take {} off the line of a sliding border, at time {}",
-                                     bodies_[b].name(), name(v), step.t1));
+      if (freedom_.distance_from_line(v, x1[v]) > same_within * diagonal_)
+        throw InputError(fmt::format("body {} would take {} off the line on which {} slides, at time {}",
+                                     bodies_[b].name(), name(v), freedom_.border_of(v), step.t1));
     }
+    for (const auto& [v, other] : cornered_)
+      if (other == b && glm::distance(place[v], initial_[v]) > same_within * diagonal_)
+        throw InputError(fmt::format("body {} would take {} off a corner where {} slides, at time {}",
+                                     bodies_[b].name(), name(v), freedom_.border_of(v), step.t1));
     for (const auto& [v, other] : shared_)
       if (other == b && glm::distance(place[v], x1[v]) > same_within * diagonal_)
         throw InputError(

@@ -119,8 +119,9 @@ class Motion {
   std::vector<Edge> constrained_;  // ends never change, whatever is repaired
   double spacing_, diagonal_;
   std::vector<Body> bodies_;
-  std::vector<int> owner_;                   // per vertex: its body, or none; empty without bodies
-  std::vector<std::pair<int, int>> shared_;  // a vertex, and a body that has it, too, after its owner
+  std::vector<int> owner_;                     // per vertex: its body, or none; empty without bodies
+  std::vector<std::pair<int, int>> shared_;    // a vertex, and a body that has it, too, after its owner
+  std::vector<std::pair<int, int>> cornered_;  // a corner of a sliding border, and a body that has it
   std::vector<int> claim_;            // per vertex of the border: number in claimed_, or none; empty without
   std::vector<std::string> claimed_;  // markers that terms name
   InteriorOptions interior_;

@@ -41,11 +41,12 @@ void read_header(io::Scanner& in) {
   in.expect_line_end("four columns");
 }
 
-// Rows of a table, which begins a new time with each vertex 0.
+// Rows of a table, which has the same vertices at each time, ascending.
 class TableReader {
  public:
-  TableReader(io::Scanner& in, std::vector<double>& times, std::vector<std::vector<Point>>& positions)
-      : in_(in), times_(times), positions_(positions) {}
+  TableReader(io::Scanner& in, std::vector<int>& numbers, std::vector<double>& times,
+              std::vector<std::vector<Point>>& positions)
+      : in_(in), numbers_(numbers), times_(times), positions_(positions) {}
 
   void read() {
     read_header(in_);
@@ -56,16 +57,29 @@ class TableReader {
 
  private:
   void add(const Row& row) {
-    if (row.vertex == 0) begin(row.time);
-    if (times_.empty() || row.vertex != static_cast<int>(positions_.back().size()))
-      in_.fail(
-          fmt::format("vertex {}, expected {}", row.vertex, times_.empty() ? 0 : positions_.back().size()));
+    if (numbers_.empty() || row.vertex == numbers_.front()) begin(row.time);
     if (row.time != times_.back())
-      in_.fail(fmt::format("time {}, expected {} as of vertex 0", row.time, times_.back()));
-    if (times_.size() > 1 && row.vertex >= static_cast<int>(positions_.front().size()))
-      in_.fail(fmt::format("vertex {}, but the first time has {} vertices", row.vertex,
-                           positions_.front().size()));
+      in_.fail(
+          fmt::format("time {}, expected {} as of vertex {}", row.time, times_.back(), numbers_.front()));
+    if (times_.size() == 1)
+      add_number(row.vertex);
+    else
+      check_number(row.vertex);
     positions_.back().push_back(row.position);
+  }
+
+  void add_number(int vertex) {
+    if (vertex < 0 || (!numbers_.empty() && vertex <= numbers_.back()))
+      in_.fail(fmt::format("vertex {}, ascending numbers from 0 on expected", vertex));
+    numbers_.push_back(vertex);
+  }
+
+  void check_number(int vertex) const {
+    const std::size_t n = positions_.back().size();
+    if (n == numbers_.size())
+      in_.fail(fmt::format("vertex {}, but the first time has {} vertices", vertex, n));
+    if (vertex != numbers_[n])
+      in_.fail(fmt::format("vertex {}, expected {} as at the first time", vertex, numbers_[n]));
   }
 
   void begin(double time) {
@@ -83,6 +97,7 @@ class TableReader {
   }
 
   io::Scanner& in_;
+  std::vector<int>& numbers_;
   std::vector<double>& times_;
   std::vector<std::vector<Point>>& positions_;
 };
@@ -103,7 +118,7 @@ void RecordedPositions::read_table(std::string text) {
   std::ranges::replace(text, ',', ' ');
   io::Scanner in(text, file_, '#');
   std::vector<std::vector<Point>> positions;
-  TableReader(in, times_, positions).read();
+  TableReader(in, numbers_, times_, positions).read();
   for (auto& points : positions)
     positions_.push_back(std::make_shared<const std::vector<Point>>(std::move(points)));
 }
@@ -135,7 +150,13 @@ void RecordedPositions::number_vertices() {
   const auto& first = *positions_.front();
   for (int v = 0; v < static_cast<int>(first.size()); ++v)
     if (const auto [other, is_new] = vertex_at_.emplace(first[v], v); !is_new)
-      throw InputError(file_, 0, fmt::format("vertices {} and {} begin at the same place", other->second, v));
+      throw InputError(
+          file_, 0,
+          fmt::format("vertices {} and {} begin at the same place", number(other->second), number(v)));
+}
+
+int RecordedPositions::number(int vertex) const {
+  return numbers_.empty() ? vertex : numbers_[vertex];
 }
 
 void RecordedPositions::require_initial(std::span<const Point> positions) const {

@@ -41,10 +41,12 @@ class RecordedPositions final : public DisplacementField {
   void read_series();
   std::shared_ptr<const std::vector<Point>> read_points(const std::filesystem::path& mesh_file) const;
   void number_vertices();
+  int number(int vertex) const;
   bool covers(double from, double to) const;
   Point position(int vertex, double t) const;
 
   std::string file_;
+  std::vector<int> numbers_;  // of its vertices, in a table
   std::vector<double> times_;
   std::vector<std::shared_ptr<const std::vector<Point>>> positions_;  // at each time, the user's order
   std::unordered_map<Point, int, Hash> vertex_at_;

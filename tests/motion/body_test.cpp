@@ -201,7 +201,43 @@ TEST(Body, KeepsToTheLineOfASlidingBorder) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("body marker:left would take vertex"));
-    EXPECT_THAT(error.what(), HasSubstr("off the line of a sliding border"));
+    EXPECT_THAT(error.what(), HasSubstr("off the line on which marker"));
+  }
+}
+
+// The bottom goes up to the right at x = 0.5; the left end of it moves along.
+TEST(Body, FollowsASlidingBorderAroundABend) {
+  const auto bottom = [](double x) { return 0.25 * std::max(x - 0.5, 0.0); };
+  const Mesh mesh = build_mesh(
+      mapped(grid(n), [&](Point p) { return Point(p.x, p.y + (1.0 - p.y) * bottom(p.x)); }), {.frame = 0.5});
+  const BorderConditions walls{BorderCondition::Fixed,
+                               {{"top", BorderCondition::Slide}, {"bottom", BorderCondition::Slide}}};
+  const auto moved_by = [&](const std::string& dy) {
+    const auto field = std::make_shared<ExpressionDisplacement>("0.75 * t", dy);
+    const Motion motion(mesh, {}, walls, Integrator::Rk4, {BodySpec{{"marker:left"}, {field}}});
+    return run(motion, mesh, 1.0, 1)[grid_vertex(mesh, n, 0, 0)];
+  };
+  EXPECT_EQ(moved_by("(1 - y) * 0.25 * max(0.75 * t - 0.5, 0)"), Point(0.75, 0.0625));
+  EXPECT_THROW((void)moved_by("0"), InputError);
+}
+
+TEST(Body, IsNotTornAtACornerOfASlidingBorder) {
+  MeshData data = grid(n);
+  data.markers = {{"baffle", {{0, n + 2}}}};  // inwards from a corner
+  const Mesh mesh = build_mesh(data, {.frame = 0.25});
+  const auto go = [&](const Point& velocity) {
+    const Motion motion(mesh, {}, {BorderCondition::Slide, {}}, Integrator::Rk4,
+                        {BodySpec{{"marker:baffle"}, {std::make_shared<Translation>(velocity)}}});
+    EXPECT_TRUE(motion.notes().empty());
+    return run(motion, mesh, 1.0, 1);
+  };
+  EXPECT_EQ(go({0.0, 0.0}), positions(mesh));
+  try {
+    (void)go({0.01, 0.0});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("body marker:baffle would take vertex 0 off a corner where the border without"));
   }
 }
 

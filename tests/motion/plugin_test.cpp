@@ -103,8 +103,9 @@ TEST(Plugin, StopsAMotionInAllThreads) {
 TEST(Plugin, NanIsBlamedOnTheField) {
   const Mesh mesh = build_mesh(test::grid(4), {.frame = 0.25, .fixed = {}});
   const Motion motion(mesh, {{sample({{"until", 0.0}, {"mode", std::string("nan")}}), {}}});
-  EXPECT_THAT(motion.describe_non_finite(test::grid_vertex(mesh, 4, 2, 2), mesh.positions(), {0.0, 0.1, 0.1, 0}),
-              HasSubstr("field \"plugin\" gives (nan"));
+  EXPECT_THAT(
+      motion.describe_non_finite(test::grid_vertex(mesh, 4, 2, 2), mesh.positions(), {0.0, 0.1, 0.1, 0}),
+      HasSubstr("field \"plugin\" gives (nan"));
 }
 
 }  // namespace

@@ -57,6 +57,13 @@ TEST_F(RecordedPositionsTest, AreLinearBetweenTheTimesOfATable) {
   EXPECT_TRUE(std::isnan(record.displacement({1.0, 0.0}, 1.6).x));
 }
 
+TEST_F(RecordedPositionsTest, MayBeOfSomeVerticesUnderTheirNumbers) {
+  const RecordedPositions record(
+      file_with("some.csv", "time,vertex,x,y\n0,3,0,0\n0,7,1,0\n1,3,0,1\n1,7,1,2\n"));
+  EXPECT_EQ(record.displacement({1.0, 0.0}, 1.0), Point(0.0, 2.0));
+  EXPECT_NO_THROW(record.require_all(std::vector{Point(1.0, 0.0), Point(0.0, 0.0)}));
+}
+
 template <class F>
 std::string error_of(const F& f) {
   try {
@@ -76,8 +83,10 @@ TEST_F(RecordedPositionsTest, NameTheLineOfATableThatIsWrong) {
   EXPECT_THAT(error_in_table(""), HasSubstr("wrong.csv:1: "));
   EXPECT_THAT(error_in_table("0,0,0,0\n"), EndsWith("wrong.csv:1: the header time,vertex,x,y expected"));
   EXPECT_THAT(error_in_table("time,vertex,x,y\n"), HasSubstr("at least one time expected"));
-  EXPECT_THAT(error_in_table("time,vertex,x,y\n0,1,0,0\n"), EndsWith("wrong.csv:2: vertex 1, expected 0"));
-  EXPECT_THAT(error_in_table(first + "0,3,1,0\n"), EndsWith("wrong.csv:4: vertex 3, expected 2"));
+  EXPECT_THAT(error_in_table(first + "0,1,1,0\n"),
+              EndsWith("wrong.csv:4: vertex 1, ascending numbers from 0 on expected"));
+  EXPECT_THAT(error_in_table(first + "1,0,1,0\n1,3,1,0\n"),
+              EndsWith("wrong.csv:5: vertex 3, expected 1 as at the first time"));
   EXPECT_THAT(error_in_table(first + "0.5,2,1,0\n"),
               EndsWith("wrong.csv:4: time 0.5, expected 0 as of vertex 0"));
   EXPECT_THAT(error_in_table(first + "0,0,1,0\n"),

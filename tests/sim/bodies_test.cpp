@@ -137,6 +137,26 @@ TEST_F(BodyRuns, ComeToRestBitForBit) {
   }
 }
 
+TEST_F(BodyRuns, ComeToRestBesideASlidingCircleToo) {
+  const Scenario scenario = parse_scenario(
+      "[mesh]\nshape = 'annulus'\nvertices = 300\nframe = 0.4\n"
+      "[[body]]\non = 'marker:inner'\nmotion = [{field = 'rigid', x = '0.3*min(t, 0.3)'}]\n"
+      "[border]\nouter = 'slide'\n[repair]\nquality = 'none'\n[time]\ndt = 0.1\nsteps = 6\n",
+      "rest.toml");
+  auto made = set_up(scenario);
+  Stepper stepper(made.mesh, stepper_options(scenario.repair, made.motion));
+  std::vector<Point> at_rest;
+  for (int n = 1; n <= 6; ++n) {
+    const auto outcome = stepper.step_to(made.motion, scenario.time.time_after(n));
+    ASSERT_TRUE(outcome) << outcome.defect->message();
+    if (n == 3) at_rest = stepper.mesh().user_positions();
+    if (n > 3) {
+      EXPECT_EQ(stepper.mesh().user_positions(), at_rest) << n;
+    }
+  }
+  EXPECT_NE(at_rest, made.mesh.user_positions());
+}
+
 TEST_F(BodyRuns, MistakesHaveTheirLine) {
   const auto error_of = [&](const std::string& text) -> std::string {
     try {
@@ -175,9 +195,12 @@ TEST_F(BodyRuns, MistakesHaveTheirLine) {
 TEST_F(BodyRuns, ThatStopAtWhatStaysSoSayThatItHasToChange) {
   const struct {
     const char *motion, *bodies, *says;
-  } cases[] = {{"y = 't > 0.25 ? 0.1 : 0'", "", "off the line of a sliding border"},
-               {"x = 't'", "[[body]]\non = 'marker:left'\n[[body]]\non = 'marker:bottom'\n", "share vertex"},
-               {"x = 'sqrt(0.25 - t)'", "", "its path gives no finite place for it at time 0.3"}};
+  } cases[] = {
+    {"y = 't > 0.25 ? 0.1 : 0'",
+     "",
+     "off the line on which marker"},
+     {"x = 't'", "[[body]]\non = 'marker:left'\n[[body]]\non = 'marker:bottom'\n", "share vertex"},
+     {"x = 'sqrt(0.25 - t)'", "", "its path gives no finite place for it at time 0.3"}};
   for (const auto& [motion, bodies, says] : cases) {
     const bool is_shared = *bodies;
     const std::string text =

@@ -188,25 +188,36 @@ bool AngleUpkeep::is_outdated(const Joint& joint) const {
   return has_changed(joint.face) || std::ranges::any_of(joint.faces, has_changed);
 }
 
-// As far around the face as it takes, but not beyond a worse one, which looks around itself.
+// As far around the face as it takes, but not beyond a worse one, which looks around itself. If nothing helps, with a
+// side flipped.
 void AngleUpkeep::find_joint(const Mesh& mesh, Joint& joint) const {
   const double own = tangent_from_any_corner(mesh.corners(joint.face));
   joint.round = n_rounds_;
   for (const int n_rings : rings) {
-    const std::vector<FreeVertex> free = free_vertices_around(mesh, joint.face, n_rings);
-    const JointStar star(mesh, free);
-    joint.faces.assign(star.faces().begin(), star.faces().end());
-    joint.before = star.tangent();
-    std::vector<Point> places = star.best_places();
-    const double after = star.tangent_at(places);
-    if (is_better(after, joint.before) && star.is_upright_at(places)) {
-      joint.after = after;
-      for (std::size_t i = 0; i < free.size(); ++i)
-        joint.moves.push_back({.vertex = free[i].vertex, .where = places[i]});
-      return;
-    }
-    if (joint.before < own) return;
+    if (try_joint(mesh, n_rings, none, joint)) return;
+    if (joint.before < own) break;
   }
+  for (const int h : mesh.sides(joint.face)) {
+    const int edge = Mesh::edge_of(h);
+    const bool may_flip = mesh.is_flippable(edge) && tangents_of_flip(mesh, edge).after > 0.0;
+    if (may_flip && try_joint(mesh, rings.front(), edge, joint)) return;
+  }
+}
+
+// True if it helps.
+bool AngleUpkeep::try_joint(const Mesh& mesh, int n_rings, int edge, Joint& joint) const {
+  const std::vector<FreeVertex> free = free_vertices_around(mesh, joint.face, n_rings);
+  const JointStar star(mesh, free, edge);
+  joint.faces.assign(star.faces().begin(), star.faces().end());
+  joint.before = star.tangent();
+  const std::vector<Point> places = star.best_places();
+  const double after = star.tangent_at(places);
+  if (!is_better(after, joint.before) || !star.is_upright_at(places)) return false;
+  joint.after = after;
+  joint.edge = edge;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    joint.moves.push_back({.vertex = free[i].vertex, .where = places[i]});
+  return true;
 }
 
 // Ascending by users' numbers.
@@ -310,7 +321,7 @@ AngleUpkeep::Proposal AngleUpkeep::proposal_of(const Mesh& mesh, const Joint& jo
   std::array<int, 3> users = mesh.triangles()[joint.face];
   for (int& v : users) v = mesh.user_vertex(v);
   std::ranges::sort(users);
-  return {.before = joint.before, .after = joint.after, .users = users, .joint = &joint};
+  return {.before = joint.before, .after = joint.after, .users = users, .edge = joint.edge, .joint = &joint};
 }
 
 void AngleUpkeep::choose(const Mesh& mesh) {
@@ -325,12 +336,12 @@ void AngleUpkeep::choose(const Mesh& mesh) {
 // False if a winner has touched one of its faces.
 bool AngleUpkeep::take(const Mesh& mesh, const Proposal& proposal) {
   const auto for_each_touched = [&](const auto& visit) {
-    if (proposal.edge != none)
-      for_each_beside(mesh, proposal.edge, visit);
-    else if (proposal.place != none)
-      for_each_around(mesh, places_[proposal.place].vertex, visit);
-    else
+    if (proposal.joint)
       std::ranges::for_each(proposal.joint->faces, visit);
+    else if (proposal.edge != none)
+      for_each_beside(mesh, proposal.edge, visit);
+    else
+      for_each_around(mesh, places_[proposal.place].vertex, visit);
   };
   bool is_free = true;
   for_each_touched([&](int face) { is_free &= round_[face] != n_rounds_; });

@@ -106,12 +106,8 @@ class InverseHessian {
 
 }  // namespace
 
-JointStar::JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices) {
-  const auto number_of = [&](int v) {
-    const auto user = [&](const FreeVertex& free) { return mesh.user_vertex(free.vertex); };
-    const auto found = std::ranges::lower_bound(vertices, mesh.user_vertex(v), {}, user);
-    return found != vertices.end() && found->vertex == v ? static_cast<int>(found - vertices.begin()) : none;
-  };
+JointStar::JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge)
+    : tangent_(infinite) {
   for (const auto& [v, along] : vertices) {
     start_.push_back(mesh.position(v));
     along_.push_back(along);
@@ -119,23 +115,45 @@ JointStar::JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices) {
       if (mesh.face_of(h) != none) faces_.push_back(mesh.face_of(h));
     });
   }
+  std::array<int, 2> sides{none, none};
+  if (flipped_edge != none) sides = {2 * flipped_edge, 2 * flipped_edge + 1};
+  if (flipped_edge != none)
+    for (const int h : sides) faces_.push_back(mesh.face_of(h));
   std::ranges::sort(faces_);
   faces_.erase(std::ranges::unique(faces_).begin(), faces_.end());
+  for (const int face : faces_)
+    if (!mesh.is_padding(face)) tangent_ = std::min(tangent_, tangent_from_any_corner(mesh.corners(face)));
 
-  std::vector<std::pair<std::array<int, 3>, Triangle>> ordered;
-  for (const int face : faces_) {
-    std::array<int, 3> v = mesh.triangles()[face];
-    std::ranges::rotate(v, std::ranges::min_element(v, {}, [&](int u) { return mesh.user_vertex(u); }));
-    Triangle triangle;
-    for (int k = 0; k < 3; ++k) triangle[k] = {number_of(v[k]), mesh.position(v[k])};
-    for (int& u : v) u = mesh.user_vertex(u);
-    if (mesh.is_padding(face))
-      padding_.push_back(triangle);
-    else
-      ordered.push_back({v, triangle});
+  const auto user = [&](int v) { return mesh.user_vertex(v); };
+  const auto number_of = [&](int v) {
+    const auto of_free = [&](const FreeVertex& free) { return user(free.vertex); };
+    const auto found = std::ranges::lower_bound(vertices, user(v), {}, of_free);
+    return found != vertices.end() && found->vertex == v ? static_cast<int>(found - vertices.begin()) : none;
+  };
+  std::vector<std::array<int, 3>> of_domain;  // vertices
+  const auto place = [&](std::array<int, 3> v, bool is_padding) {
+    std::ranges::rotate(v, std::ranges::min_element(v, {}, user));
+    if (!is_padding) return of_domain.push_back(v);
+    padding_.push_back({});
+    for (int k = 0; k < 3; ++k) padding_.back()[k] = {number_of(v[k]), mesh.position(v[k])};
+  };
+  const auto is_beside_edge = [&](int face) {
+    return flipped_edge != none && (face == mesh.face_of(sides[0]) || face == mesh.face_of(sides[1]));
+  };
+  for (const int face : faces_)
+    if (!is_beside_edge(face)) place(mesh.triangles()[face], mesh.is_padding(face));
+  if (flipped_edge != none)
+    for (const int h : sides)
+      place({mesh.from(h), mesh.to(mesh.next(Mesh::opposite(h))), mesh.to(mesh.next(h))},
+            mesh.is_padding(mesh.face_of(h)));
+  const auto by_users = [&](const std::array<int, 3>& v) {
+    return std::array{user(v[0]), user(v[1]), user(v[2])};
+  };
+  std::ranges::sort(of_domain, {}, by_users);
+  for (const auto& v : of_domain) {
+    triangles_.push_back({});
+    for (int k = 0; k < 3; ++k) triangles_.back()[k] = {number_of(v[k]), mesh.position(v[k])};
   }
-  std::ranges::sort(ordered, {}, [](const auto& entry) { return entry.first; });
-  for (const auto& entry : ordered) triangles_.push_back(entry.second);
 
   scale_.assign(start_.size(), 0.0);
   std::vector<int> n(start_.size(), 0);
@@ -226,7 +244,7 @@ std::vector<Point> JointStar::best_places() const {
   State now{start_, std::vector<Point>(start_.size())}, there = now;
   now.energy = energy_at(now.places, now.gradient);
   std::vector<Point> best = start_, shift;
-  double best_tangent = tangent();
+  double best_tangent = tangent_at(best);
   InverseHessian inverse(scale_, now.gradient);
   for (int step = 0; step < max_steps; ++step) {
     shift = now.gradient;

@@ -22,15 +22,19 @@ struct FreeVertex {
 // single vertex gets on.
 class JointStar {
  public:
-  // Pre: a valid mesh; vertices are ascending by users' numbers, none comes twice.
-  JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices);
+  // As if the edge were flipped, if there is one. Pre: a valid mesh, and a valid one if it were; vertices are
+  // ascending by users' numbers, none comes twice.
+  JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge = none);
 
-  // Around the vertices, padding included.
+  // Around the vertices and beside the edge, padding included.
   std::span<const int> faces() const { return faces_; }
 
-  // The tangent of the smallest angle of the domain's faces; infinity if there are none. Rounded.
-  double tangent() const { return tangent_at(start_); }
+  // The tangent of the smallest angle of the domain's faces, with the vertices at these places; infinity if
+  // there are none. Rounded.
   double tangent_at(std::span<const Point> places) const;
+
+  // The same in the mesh as it is.
+  double tangent() const { return tangent_; }
 
   // Padding, too. Exact.
   bool is_upright_at(std::span<const Point> places) const;
@@ -61,6 +65,7 @@ class JointStar {
   std::vector<Point> start_, along_;
   std::vector<double> scale_;  // per vertex: the mean square of the lengths of its edges
   std::vector<int> faces_;
+  double tangent_;
   std::vector<Triangle> triangles_;  // of the domain, in an order of the users' numbers
   std::vector<Triangle> padding_;
 };
