@@ -13,7 +13,6 @@
 #include "core/parallel.h"
 #include "untangle/quality/around.h"
 #include "untangle/quality/joint_star.h"
-#include "untangle/quality/star.h"
 
 namespace kinemesh {
 namespace {
@@ -101,6 +100,9 @@ AngleUpkeep::AngleUpkeep(const Mesh& mesh, const AngleOptions& options, VertexFr
       is_moved_(mesh.n_vertices(), false) {
   if (!freedom_.held.empty() && static_cast<int>(freedom_.held.size()) != mesh.n_vertices())
     throw InputError("held: one per vertex of the mesh expected, or none");
+  const int n_curves = static_cast<int>(freedom_.curves.size());
+  for (const auto& [vertex, curve] : freedom_.curve_of)
+    if (curve < 0 || curve >= n_curves) throw InputError("curve_of: numbers of curves expected");
 }
 
 QualityCounts AngleUpkeep::improve(Mesh& mesh, const QualityInputs& inputs) {
@@ -254,16 +256,29 @@ AngleUpkeep::Freedom AngleUpkeep::freedom_of(const Mesh& mesh, int v) const {
   if (!freedom_.held.empty() && freedom_.held[v]) return Freedom::None;
   if (!stays_.empty() && stays_[v]) return Freedom::None;
   if (freedom_.tangents.contains(v)) return Freedom::Line;
+  if (freedom_.curve_of.contains(v)) return Freedom::Curve;
   return is_movable(mesh, v) ? Freedom::Plane : Freedom::None;
+}
+
+std::optional<Point> AngleUpkeep::best_place(const Mesh& mesh, int v, const Star& star) const {
+  switch (freedom_of(mesh, v)) {
+    case Freedom::None:
+      return std::nullopt;
+    case Freedom::Line:
+      return star.best_place_along(freedom_.tangents.at(v));
+    case Freedom::Curve:
+      return star.best_place_on(freedom_.curves[freedom_.curve_of.at(v)]);
+    case Freedom::Plane:
+      break;
+  }
+  return star.best_place();
 }
 
 void AngleUpkeep::find_place(const Mesh& mesh, Place& place) const {
   const int v = place.vertex;
   const Star star(mesh, v);
   place.before = star.tangent_at(mesh.position(v));
-  const std::optional<Point> where = freedom_of(mesh, v) == Freedom::Plane
-                                         ? star.best_place()
-                                         : star.best_place_along(freedom_.tangents.at(v));
+  const std::optional<Point> where = best_place(mesh, v, star);
   if (!where) return;
   const double after = star.tangent_at(*where);
   if (!is_better(after, place.before) || !star.is_upright_at(*where)) return;
