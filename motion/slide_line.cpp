@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -50,6 +49,31 @@ std::vector<int> take_chain(int first, Neighbours& neighbours) {
   return chain;
 }
 
+bool is_straight(const Mesh& mesh, std::span<const int> chain) {
+  const Point first = mesh.position(chain.front()), last = mesh.position(chain.back());
+  const double span = glm::distance(first, last);
+  return std::ranges::all_of(chain, [&](int v) {
+    return std::abs(cross(last - first, mesh.position(v) - first)) <= straight_within * span * span;
+  });
+}
+
+std::vector<Point> points_of(const Mesh& mesh, std::span<const int> vertices, bool is_closed) {
+  if (!is_closed && is_straight(mesh, vertices))
+    return {mesh.position(vertices.front()), mesh.position(vertices.back())};
+  std::vector<Point> points;
+  for (const int v : vertices) points.push_back(mesh.position(v));
+  if (is_closed) points.push_back(points.front());
+  return points;
+}
+
+// From the lowest number on, of the ends where there are any, the way on which lower ones come first.
+void put_in_order(const Mesh& mesh, std::vector<int>& chain, bool is_closed) {
+  const auto user = [&](int v) { return mesh.user_vertex(v); };
+  if (is_closed) std::ranges::rotate(chain, std::ranges::min_element(chain, {}, user));
+  const auto begin = chain.begin() + (is_closed ? 1 : 0);
+  if (user(*begin) > user(chain.back())) std::reverse(begin, chain.end());
+}
+
 }  // namespace
 
 bool are_parallel(const Point& a, const Point& b) {
@@ -57,80 +81,30 @@ bool are_parallel(const Point& a, const Point& b) {
 }
 
 SlideLine::SlideLine(const Mesh& mesh, std::vector<int> vertices, bool is_closed)
-    : vertices_(std::move(vertices)), is_closed_(is_closed) {
-  for (const int v : vertices_) points_.push_back(mesh.position(v));
-  const Point first = points_.front(), last = points_.back();
-  const double span = glm::distance(first, last);
-  is_straight_ = !is_closed_ && std::ranges::all_of(points_, [&](const Point& p) {
-    return std::abs(cross(last - first, p - first)) <= straight_within * span * span;
-  });
-  if (is_straight_) points_ = {first, last};
-  if (is_closed_) points_.push_back(first);
-  start_.push_back(0.0);
-  for (std::size_t i = 1; i < points_.size(); ++i)
-    start_.push_back(start_.back() + glm::distance(points_[i - 1], points_[i]));
-}
+    : Polyline(points_of(mesh, vertices, is_closed)), vertices_(std::move(vertices)) {}
 
 std::vector<int> SlideLine::corners() const {
   std::vector<int> corners;
-  if (is_straight_) return corners;
+  if (is_straight()) return corners;
   const std::size_t n = vertices_.size();
-  const auto direction = [&](std::size_t i) { return glm::normalize(points_[i + 1] - points_[i]); };
-  for (std::size_t i = is_closed_ ? 0 : 1; i < (is_closed_ ? n : n - 1); ++i)
+  const auto direction = [&](std::size_t i) { return glm::normalize(points()[i + 1] - points()[i]); };
+  for (std::size_t i = is_closed() ? 0 : 1; i < (is_closed() ? n : n - 1); ++i)
     if (glm::dot(direction(i == 0 ? n - 1 : i - 1), direction(i)) < corner_cosine)
       corners.push_back(vertices_[i]);
   return corners;
 }
 
 std::vector<std::pair<int, Point>> SlideLine::ends() const {
-  if (is_closed_) return {};
-  const std::size_t n = points_.size();
-  return {{vertices_.front(), glm::normalize(points_[1] - points_[0])},
-          {vertices_.back(), glm::normalize(points_[n - 1] - points_[n - 2])}};
-}
-
-double SlideLine::parameter_near(const Point& x) const {
-  double best = 0.0, nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < n_segments(); ++i) {
-    const double length = start_[i + 1] - start_[i];
-    const Point along = (points_[i + 1] - points_[i]) / length;
-    const bool goes_on_before = !is_closed_ && i == 0, goes_on_behind = !is_closed_ && i + 1 == n_segments();
-    double s = glm::dot(along, x - points_[i]);
-    if (!goes_on_before) s = std::max(s, 0.0);
-    if (!goes_on_behind) s = std::min(s, length);
-    const double distance = glm::distance(x, points_[i] + s * along);
-    if (distance < nearest) {
-      nearest = distance;
-      best = start_[i] + s;
-    }
-  }
-  return best;
-}
-
-std::size_t SlideLine::segment_at(double parameter) const {
-  const auto behind = std::upper_bound(start_.begin(), start_.end(), parameter);
-  const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(behind - start_.begin(), 1)) - 1;
-  return std::min(i, n_segments() - 1);
-}
-
-Point SlideLine::at(double parameter) const {
-  if (is_closed_) {
-    parameter = std::fmod(parameter, length());
-    if (parameter < 0.0) parameter += length();
-  }
-  const std::size_t i = segment_at(parameter);
-  const double share = (parameter - start_[i]) / (start_[i + 1] - start_[i]);
-  return points_[i] + share * (points_[i + 1] - points_[i]);
-}
-
-Point SlideLine::tangent_near(const Point& x) const {
-  const std::size_t i = segment_at(is_straight_ ? 0.0 : parameter_near(x));
-  return (points_[i + 1] - points_[i]) / (start_[i + 1] - start_[i]);
+  if (is_closed()) return {};
+  const auto p = points();
+  const std::size_t n = p.size();
+  return {{vertices_.front(), glm::normalize(p[1] - p[0])},
+          {vertices_.back(), glm::normalize(p[n - 1] - p[n - 2])}};
 }
 
 Point SlideLine::moved(const Point& x0, const Point& x1) const {
-  const Point way = points_[1] - points_[0];
-  if (is_straight_ && (way.x == 0.0 || way.y == 0.0)) return x1;
+  const Point way = points()[1] - points()[0];
+  if (is_straight() && (way.x == 0.0 || way.y == 0.0)) return x1;
   return at(parameter_near(x0) + glm::dot(tangent_near(x0), x1 - x0));
 }
 
@@ -138,11 +112,14 @@ std::vector<SlideLine> slide_lines(const Mesh& mesh, const std::vector<Edge>& ed
   Neighbours neighbours = neighbours_in(mesh, edges);
   const Neighbours all = neighbours;
   std::vector<SlideLine> lines;
+  const auto take_line = [&](int first, bool is_closed) {
+    std::vector<int> chain = take_chain(first, neighbours);
+    if (is_closed || !is_straight(mesh, chain)) put_in_order(mesh, chain, is_closed);
+    lines.emplace_back(mesh, std::move(chain), is_closed);
+  };
   for (const auto& [v, others] : all)  // open ones from their ends
-    if (others.size() == 1 && neighbours.contains(v))
-      lines.emplace_back(mesh, take_chain(v, neighbours), false);
-  while (!neighbours.empty())
-    lines.emplace_back(mesh, take_chain(neighbours.begin()->first, neighbours), true);
+    if (others.size() == 1 && neighbours.contains(v)) take_line(v, false);
+  while (!neighbours.empty()) take_line(neighbours.begin()->first, true);
   return lines;
 }
 

@@ -9,8 +9,16 @@ template <class Archive, class S>
 requires binary::Is<S, VertexFreedom>
 void members(Archive& archive, S& freedom) {
   std::map<int, Point> tangents(freedom.tangents.begin(), freedom.tangents.end());
-  archive(freedom.held, tangents);
-  if constexpr (!std::is_const_v<S>) freedom.tangents = {tangents.begin(), tangents.end()};
+  std::vector<std::vector<Point>> curves;
+  for (const Polyline& curve : freedom.curves)
+    curves.emplace_back(curve.points().begin(), curve.points().end());
+  std::map<int, int> curve_of(freedom.curve_of.begin(), freedom.curve_of.end());
+  archive(freedom.held, tangents, curve_of, curves);
+  if constexpr (!std::is_const_v<S>)
+    freedom = {std::move(freedom.held),
+               {tangents.begin(), tangents.end()},
+               {curve_of.begin(), curve_of.end()},
+               {curves.begin(), curves.end()}};
 }
 
 // Without the interior, which only what moves the vertices asks.
@@ -30,7 +38,7 @@ void members(Archive& archive, S& step) {
 
 namespace {
 
-constexpr binary::Kind kind{"KMFSTEP\n", 3, "failed step of kinemesh"};
+constexpr binary::Kind kind{"KMFSTEP\n", 4, "failed step of kinemesh"};
 
 }  // namespace
 

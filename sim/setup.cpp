@@ -198,10 +198,19 @@ VertexFreedom freedom_of(const Motion& motion) {
   if (!motion.bodies().empty()) freedom.held.assign(initial.size(), false);
   for (const Body& body : motion.bodies())
     for (const int v : body.vertices()) freedom.held[v] = true;
-  for (const SlideLine& line : motion.freedom().lines())
-    for (const int v : line.vertices())
-      if (line.is_straight() && motion.freedom().of(v) == BorderCondition::Slide && motion.body_of(v) == none)
-        freedom.tangents.emplace(v, motion.freedom().tangent(v, initial[v]));
+  const auto may_slide = [&](int v) {
+    return motion.freedom().of(v) == BorderCondition::Slide && motion.body_of(v) == none;
+  };
+  for (const SlideLine& line : motion.freedom().lines()) {
+    if (line.is_straight()) {
+      for (const int v : line.vertices())
+        if (may_slide(v)) freedom.tangents.emplace(v, motion.freedom().tangent(v, initial[v]));
+    } else {
+      for (const int v : line.inner_vertices())
+        if (may_slide(v)) freedom.curve_of.emplace(v, static_cast<int>(freedom.curves.size()));
+      freedom.curves.push_back(line);
+    }
+  }
   return freedom;
 }
 

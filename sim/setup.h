@@ -17,7 +17,7 @@ struct SetUp {
   std::vector<std::string> notes;  // of the mesh's reader
 };
 
-// By what [repair] says; a quality pass moves no vertex of a body, and those of straight sliding borders along them.
+// By what [repair] says; a quality pass moves no vertex of a body, and those of sliding borders along them.
 StepperOptions stepper_options(const RepairSpec& repair, const Motion& motion);
 
 // Post: the mesh is valid, every marker and label the scenario names is in it, and no border that is part of

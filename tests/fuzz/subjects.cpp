@@ -207,12 +207,15 @@ std::string sample_failed_step() {
   step.options.quality = "angles";
   step.options.freedom.held.assign(mesh.n_vertices(), 0);
   step.options.freedom.tangents[3] = {1.0, 0.0};
+  step.options.freedom.curves.emplace_back(
+      std::vector<Point>{mesh.position(0), mesh.position(1), mesh.position(2)});
+  step.options.freedom.curve_of[1] = 0;
   return format_failed_step(step);
 }
 
 Subject failed_step_subject() {
   const std::string sample = sample_failed_step();
-  const binary::Kind kind{"KMFSTEP\n", 3, "failed step"};
+  const binary::Kind kind{"KMFSTEP\n", 4, "failed step"};
   return {"failed_step", [=](Dice& dice) { return resealed(sample, kind, dice); },
           [](const std::string& content) {
             (void)replay(parse_failed_step(content));

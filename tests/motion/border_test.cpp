@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/shapes.h"
 #include "tests/motion/grid.h"
 
 namespace kinemesh {
@@ -107,6 +109,19 @@ TEST(Freedom, SlidesAlongABentBorder) {
     EXPECT_NEAR(glm::distance(line.at(line.parameter_near(x)), x), 0.0, 1e-15);
   }
   EXPECT_GT(x.x, mesh.position(grid_vertex(mesh, n, n - 1, 0)).x);
+}
+
+TEST(Freedom, CurvedLinesDoNotDependOnHowTheMeshIsStored) {
+  const MeshData ring = make_annulus(300);
+  MeshData more = ring;
+  for (int i = 0; i < 40; ++i) more.points.push_back({0.9, 0.8 + 0.001 * i});
+  const Mesh mesh = build_mesh(ring, {.frame = 0.1, .fixed = {}}),
+             other = build_mesh(more, {.frame = 0.7, .fixed = {}});
+  ASSERT_NE(mesh.user_vertex(50), other.user_vertex(50));
+  const Freedom freedom(mesh, {Slide, {}}), same(other, {Slide, {}});
+  ASSERT_EQ(freedom.lines().size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_TRUE(std::ranges::equal(freedom.lines()[i].points(), same.lines()[i].points()));
 }
 
 TEST(Freedom, HoldsCornersOfMoreThanThirtyDegrees) {

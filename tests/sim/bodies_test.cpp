@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <glm/geometric.hpp>
 #include <map>
 
 #include "core/build.h"
@@ -214,30 +215,92 @@ TEST_F(BodyRuns, ThatStopAtWhatStaysSoSayThatItHasToChange) {
   }
 }
 
-// With what quality may move: bodies stay, the walls' vertices slide.
-TEST_F(BodyRuns, StepsKeptInAFileAreRepeatedWithTheirQuality) {
-  const Scenario scenario = load();
+// A disc that travels in a tank whose wall is a circle and slides.
+const std::string tank =
+    "[mesh]\nshape = 'annulus'\nvertices = 500\n"
+    "[[body]]\non = 'marker:inner'\n"
+    "motion = [{field = 'rigid', x = '0.47*sin(2*t)'},\n"
+    "          {field = 'rotation', center = [0.0, 0.0], rate = 1.0}]\n"
+    "[border]\nouter = 'slide'\n"
+    "[time]\ndt = 0.1\nsteps = 30\n"
+    "[output]\nevery = 10\ncheckpoint = 4\n";
+
+void expect_on_line_in_order(const SlideLine& line, const Mesh& mesh) {
+  const auto vertices = line.vertices();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Point x = mesh.position(vertices[i]), next = mesh.position(vertices[(i + 1) % vertices.size()]);
+    const double here = line.parameter_near(x);
+    EXPECT_LE(glm::distance(x, line.at(here)), 1e-14);
+    EXPECT_GT(line.way(here, line.parameter_near(next)), 0.0);
+  }
+}
+
+// The smallest angle of all steps.
+double worst_angle_in_tank(bool wall_is_held) {
+  const Scenario scenario = parse_scenario(tank, "tank.toml");
   kinemesh::SetUp made = set_up(scenario);
   StepperOptions options = stepper_options(scenario.repair, made.motion);
-  options.angle = 30.0;  // keeps quality busy
+  EXPECT_FALSE(options.freedom.curve_of.empty());
+  if (wall_is_held) options.freedom.curve_of.clear();
   Stepper stepper(made.mesh, options);
-  int moves = 0;
-  for (int n = 1; n <= 12; ++n) {
-    FailedStep kept = failed_step(stepper, made.motion, n * 0.03);
-    kept.options = options;
-    kept.origin = origin_of(made.mesh);
-    const std::string file = format_failed_step(kept);
-    EXPECT_EQ(format_failed_step(parse_failed_step(file)), file);
-    const StepOutcome again = replay(parse_failed_step(file)), once = stepper.step_to(made.motion, n * 0.03);
-    ASSERT_TRUE(once && again);
-    EXPECT_EQ(again.record.repair.quality_flips, once.record.repair.quality_flips);
-    EXPECT_EQ(again.record.repair.quality_moves, once.record.repair.quality_moves);
-    EXPECT_EQ(again.record.min_angle_deg, once.record.min_angle_deg);
-    EXPECT_EQ(again.record.min_area, once.record.min_area);
-    moves += once.record.repair.quality_moves;
+  double worst = 180.0;
+  for (int n = 1; n <= 30; ++n) {
+    const auto outcome = stepper.step_to(made.motion, scenario.time.time_after(n));
+    if (!outcome) throw std::runtime_error(outcome.defect->message());
+    worst = std::min(worst, outcome.record.min_angle_deg);
+    expect_on_line_in_order(made.motion.freedom().lines().front(), stepper.mesh());
   }
-  EXPECT_GT(moves, 0);
-  EXPECT_FALSE(options.freedom.held.empty() || options.freedom.tangents.empty());
+  EXPECT_FALSE(validate(stepper.mesh()));
+  return worst;
+}
+
+TEST_F(BodyRuns, AnglesMoveVerticesAlongCurvedWalls) {
+  const double worst = worst_angle_in_tank(false);
+  EXPECT_GT(worst, 24.0);
+  EXPECT_GT(worst, worst_angle_in_tank(true) + 1.5);
+}
+
+TEST_F(BodyRuns, WithCurvedWallsGoOnToTheSameBits) {
+  const Scenario scenario = parse_scenario(tank, folder_ / "tank.toml");
+  ASSERT_FALSE(go(scenario, "whole").stopped);
+  RunOptions options;
+  options.directory = folder_ / "cut";
+  options.resume = true;
+  for (const int steps : {7, 9}) {
+    StopAfter observer(steps);
+    ASSERT_TRUE(kinemesh::run(scenario, options, observer).stopped);
+  }
+  ASSERT_FALSE(go(scenario, "cut", options).stopped);
+  EXPECT_EQ(results_in(folder_ / "cut"), results_in(folder_ / "whole"));
+}
+
+// With what quality may move: bodies stay, the walls' vertices slide.
+TEST_F(BodyRuns, StepsKeptInAFileAreRepeatedWithTheirQuality) {
+  for (const Scenario& scenario : {load(), parse_scenario(tank, "tank.toml")}) {
+    kinemesh::SetUp made = set_up(scenario);
+    StepperOptions options = stepper_options(scenario.repair, made.motion);
+    options.angle = 30.0;  // keeps quality busy
+    Stepper stepper(made.mesh, options);
+    int moves = 0;
+    for (int n = 1; n <= 12; ++n) {
+      const double end = scenario.time.time_after(n);
+      FailedStep kept = failed_step(stepper, made.motion, end);
+      kept.options = options;
+      kept.origin = origin_of(made.mesh);
+      const std::string file = format_failed_step(kept);
+      EXPECT_EQ(format_failed_step(parse_failed_step(file)), file);
+      const StepOutcome again = replay(parse_failed_step(file)), once = stepper.step_to(made.motion, end);
+      ASSERT_TRUE(once && again);
+      EXPECT_EQ(again.record.repair.quality_flips, once.record.repair.quality_flips);
+      EXPECT_EQ(again.record.repair.quality_moves, once.record.repair.quality_moves);
+      EXPECT_EQ(again.record.min_angle_deg, once.record.min_angle_deg);
+      EXPECT_EQ(again.record.min_area, once.record.min_area);
+      moves += once.record.repair.quality_moves;
+    }
+    EXPECT_GT(moves, 0);
+    EXPECT_FALSE(options.freedom.held.empty());
+    EXPECT_FALSE(options.freedom.tangents.empty() && options.freedom.curve_of.empty());
+  }
 }
 
 TEST_F(BodyRuns, LoadBackFromTheResolvedScenario) {

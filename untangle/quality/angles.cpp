@@ -13,7 +13,6 @@
 #include "core/parallel.h"
 #include "untangle/quality/around.h"
 #include "untangle/quality/joint_star.h"
-#include "untangle/quality/star.h"
 
 namespace kinemesh {
 namespace {
@@ -69,6 +68,11 @@ void for_each_around(const Mesh& mesh, int vertex, const Visit& visit) {
   });
 }
 
+// Of the edge's ends, ascending.
+std::pair<int, int> users_of(const Mesh& mesh, int h) {
+  return std::minmax({mesh.user_vertex(mesh.from(h)), mesh.user_vertex(mesh.to(h))});
+}
+
 // The smallest angles of the two faces beside an edge, and of those that its flip would make; the latter 0 if
 // one of them would not be upright, exactly.
 struct FlipTangents {
@@ -101,6 +105,9 @@ AngleUpkeep::AngleUpkeep(const Mesh& mesh, const AngleOptions& options, VertexFr
       is_moved_(mesh.n_vertices(), false) {
   if (!freedom_.held.empty() && static_cast<int>(freedom_.held.size()) != mesh.n_vertices())
     throw InputError("held: one per vertex of the mesh expected, or none");
+  const int n_curves = static_cast<int>(freedom_.curves.size());
+  for (const auto& [vertex, curve] : freedom_.curve_of)
+    if (curve < 0 || curve >= n_curves) throw InputError("curve_of: numbers of curves expected");
 }
 
 QualityCounts AngleUpkeep::improve(Mesh& mesh, const QualityInputs& inputs) {
@@ -197,7 +204,9 @@ void AngleUpkeep::find_joint(const Mesh& mesh, Joint& joint) const {
     if (try_joint(mesh, n_rings, none, joint)) return;
     if (joint.before < own) break;
   }
-  for (const int h : mesh.sides(joint.face)) {
+  auto sides = mesh.sides(joint.face);
+  std::ranges::sort(sides, {}, [&](int h) { return users_of(mesh, h); });
+  for (const int h : sides) {
     const int edge = Mesh::edge_of(h);
     const bool may_flip = mesh.is_flippable(edge) && tangents_of_flip(mesh, edge).after > 0.0;
     if (may_flip && try_joint(mesh, rings.front(), edge, joint)) return;
@@ -261,16 +270,29 @@ AngleUpkeep::Freedom AngleUpkeep::freedom_of(const Mesh& mesh, int v) const {
   if (!freedom_.held.empty() && freedom_.held[v]) return Freedom::None;
   if (!stays_.empty() && stays_[v]) return Freedom::None;
   if (freedom_.tangents.contains(v)) return Freedom::Line;
+  if (freedom_.curve_of.contains(v)) return Freedom::Curve;
   return is_movable(mesh, v) ? Freedom::Plane : Freedom::None;
+}
+
+std::optional<Point> AngleUpkeep::best_place(const Mesh& mesh, int v, const Star& star) const {
+  switch (freedom_of(mesh, v)) {
+    case Freedom::None:
+      return std::nullopt;
+    case Freedom::Line:
+      return star.best_place_along(freedom_.tangents.at(v));
+    case Freedom::Curve:
+      return star.best_place_on(freedom_.curves[freedom_.curve_of.at(v)]);
+    case Freedom::Plane:
+      break;
+  }
+  return star.best_place();
 }
 
 void AngleUpkeep::find_place(const Mesh& mesh, Place& place) const {
   const int v = place.vertex;
   const Star star(mesh, v);
   place.before = star.tangent_at(mesh.position(v));
-  const std::optional<Point> where = freedom_of(mesh, v) == Freedom::Plane
-                                         ? star.best_place()
-                                         : star.best_place_along(freedom_.tangents.at(v));
+  const std::optional<Point> where = best_place(mesh, v, star);
   if (!where) return;
   const double after = star.tangent_at(*where);
   if (!is_better(after, place.before) || !star.is_upright_at(*where)) return;
@@ -313,7 +335,7 @@ AngleUpkeep::Proposal AngleUpkeep::flip_of(const Mesh& mesh, int h) const {
   if (!mesh.is_flippable(edge)) return {};
   const auto [before, after] = tangents_of_flip(mesh, edge);
   if (!is_better(after, before)) return {};
-  const auto [low, high] = std::minmax({mesh.user_vertex(mesh.from(h)), mesh.user_vertex(mesh.to(h))});
+  const auto [low, high] = users_of(mesh, h);
   return {.before = before, .after = after, .users = {none, low, high}, .edge = edge};
 }
 

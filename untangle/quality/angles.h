@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/mesh.h"
 #include "untangle/quality/joint_star.h"
 #include "untangle/quality/quality_pass.h"
+#include "untangle/quality/star.h"
 #include "untangle/quality/vertex_freedom.h"
 
 namespace kinemesh {
@@ -33,25 +35,27 @@ struct AngleCounts {
 // (untangle/quality/star.h), which touches the faces around it. In a round in which no bad face has a
 // proposal, each tries to move all vertices near it together (untangle/quality/joint_star.h): those of the
 // faces around it, or else, as long as no worse face is among those touched, of two, four, eight rings of
-// faces. A proposal has to make the smallest angle of the faces it touches larger, by 0.01 percent at least,
-// and leave them upright, exactly. Of proposals that touch a common face that with the smaller key is done:
-// the smallest angle that is touched, then the users' numbers of what it moves or flips, or of the face it is
-// for. Greedily in the order of keys; the same come out if again and again each goes ahead whose key is
-// smallest among those it shares faces with
+// faces; or else those of the faces around it after the flip of a side. A proposal has to make the smallest
+// angle of the faces it touches larger, by 0.01 percent at least, and leave them upright, exactly. Of
+// proposals that touch a common face that with the smaller key is done: the smallest angle that is touched,
+// then the users' numbers of what it moves or flips, or of the face it is for. Greedily in the order of keys;
+// the same come out if again and again each goes ahead whose key is smallest among those it shares faces with
 // [Blelloch 2012], as several machines with a part of the mesh each can find out. Ends when no proposal is
 // left.
 //
 // The mesh's smallest angle never gets smaller, a valid mesh stays valid, and one without bad faces bit for
-// bit what it was. Labels and constrained edges stay; vertices move as VertexFreedom says. The bits of the
-// result depend neither on the number of threads nor on how the mesh is stored, and not on its scale if that
-// changes by a power of two. Padding faces have no angle here.
+// bit what it was. Labels and constrained edges stay; vertices move as VertexFreedom says, those on curves
+// by themselves only: joint moves leave them where they are. The bits of the result depend neither on the
+// number of threads nor on how the mesh is stored, and not on its scale if that changes by a power of two.
+// Padding faces have no angle here.
 //
 // Takes 5 bytes a face and 5 a vertex when made. Cost of a run: of the minima that are outdated, of 64 faces
-// for each bad one at most, and some 10 microseconds for each move that is thought of, a
-// millisecond for a joint one.
+// for each bad one at most, and some 10 microseconds for each move that is thought of, a millisecond for a
+// joint one; on a curve three passes over its segments, besides.
 class AngleUpkeep : public QualityPass {
  public:
-  // For meshes of this one's size. Throws InputError for options out of range or `held` of another size.
+  // For meshes of this one's size. Throws InputError for options out of range, `held` of another size, or the
+  // number of a curve that there is not.
   explicit AngleUpkeep(const Mesh& mesh, const AngleOptions& options = {}, VertexFreedom freedom = {});
 
   // Pre: the mesh is valid. `minima` as in QualityInputs.
@@ -93,7 +97,7 @@ class AngleUpkeep : public QualityPass {
   };
   static Proposal better(const Proposal& a, const Proposal& b);
 
-  enum class Freedom { None, Line, Plane };
+  enum class Freedom { None, Line, Curve, Plane };
 
   void forget();
   void find_bad(const Mesh& mesh, FaceMinima& minima);
@@ -108,6 +112,7 @@ class AngleUpkeep : public QualityPass {
   void find_places(const Mesh& mesh);
   void ask_for_place(const Mesh& mesh, int vertex);
   Freedom freedom_of(const Mesh& mesh, int vertex) const;
+  std::optional<Point> best_place(const Mesh& mesh, int vertex, const Star& star) const;
   void find_place(const Mesh& mesh, Place& place) const;
   Proposal best_at(const Mesh& mesh, int face) const;
   Proposal flip_of(const Mesh& mesh, int halfedge) const;

@@ -107,55 +107,59 @@ class InverseHessian {
 }  // namespace
 
 JointStar::JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge)
-    : tangent_(infinite) {
+    : scale_(vertices.size(), 0.0), tangent_(infinite) {
   for (const auto& [v, along] : vertices) {
     start_.push_back(mesh.position(v));
     along_.push_back(along);
-    for_each_outgoing(mesh, v, [&](int h) {
-      if (mesh.face_of(h) != none) faces_.push_back(mesh.face_of(h));
-    });
   }
-  std::array<int, 2> sides{none, none};
-  if (flipped_edge != none) sides = {2 * flipped_edge, 2 * flipped_edge + 1};
-  if (flipped_edge != none)
-    for (const int h : sides) faces_.push_back(mesh.face_of(h));
-  std::ranges::sort(faces_);
-  faces_.erase(std::ranges::unique(faces_).begin(), faces_.end());
+  list_faces(mesh, vertices, flipped_edge);
   for (const int face : faces_)
     if (!mesh.is_padding(face)) tangent_ = std::min(tangent_, tangent_from_any_corner(mesh.corners(face)));
+  list_triangles(mesh, vertices, flipped_edge);
+  measure_scale();
+}
 
+void JointStar::list_faces(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge) {
+  for (const auto& free : vertices)
+    for_each_outgoing(mesh, free.vertex, [&](int h) {
+      if (mesh.face_of(h) != none) faces_.push_back(mesh.face_of(h));
+    });
+  if (flipped_edge != none)
+    for (const int h : {2 * flipped_edge, 2 * flipped_edge + 1}) faces_.push_back(mesh.face_of(h));
+  std::ranges::sort(faces_);
+  faces_.erase(std::ranges::unique(faces_).begin(), faces_.end());
+}
+
+void JointStar::list_triangles(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge) {
   const auto user = [&](int v) { return mesh.user_vertex(v); };
-  const auto number_of = [&](int v) {
+  const auto corner = [&](int v) {
     const auto of_free = [&](const FreeVertex& free) { return user(free.vertex); };
     const auto found = std::ranges::lower_bound(vertices, user(v), {}, of_free);
-    return found != vertices.end() && found->vertex == v ? static_cast<int>(found - vertices.begin()) : none;
+    const bool is_free = found != vertices.end() && found->vertex == v;
+    return Corner{is_free ? static_cast<int>(found - vertices.begin()) : none, mesh.position(v)};
   };
-  std::vector<std::array<int, 3>> of_domain;  // vertices
-  const auto place = [&](std::array<int, 3> v, bool is_padding) {
+  std::vector<std::array<int, 3>> of_domain;  // vertices, the lowest user's number first
+  const auto list = [&](std::array<int, 3> v, bool is_padding) {
+    if (is_padding) return padding_.push_back({corner(v[0]), corner(v[1]), corner(v[2])});
     std::ranges::rotate(v, std::ranges::min_element(v, {}, user));
-    if (!is_padding) return of_domain.push_back(v);
-    padding_.push_back({});
-    for (int k = 0; k < 3; ++k) padding_.back()[k] = {number_of(v[k]), mesh.position(v[k])};
+    of_domain.push_back(v);
   };
-  const auto is_beside_edge = [&](int face) {
-    return flipped_edge != none && (face == mesh.face_of(sides[0]) || face == mesh.face_of(sides[1]));
-  };
-  for (const int face : faces_)
-    if (!is_beside_edge(face)) place(mesh.triangles()[face], mesh.is_padding(face));
-  if (flipped_edge != none)
-    for (const int h : sides)
-      place({mesh.from(h), mesh.to(mesh.next(Mesh::opposite(h))), mesh.to(mesh.next(h))},
-            mesh.is_padding(mesh.face_of(h)));
-  const auto by_users = [&](const std::array<int, 3>& v) {
-    return std::array{user(v[0]), user(v[1]), user(v[2])};
-  };
-  std::ranges::sort(of_domain, {}, by_users);
-  for (const auto& v : of_domain) {
-    triangles_.push_back({});
-    for (int k = 0; k < 3; ++k) triangles_.back()[k] = {number_of(v[k]), mesh.position(v[k])};
+  for (const int face : faces_) {
+    const auto is_flipped = [&](int h) { return Mesh::edge_of(h) == flipped_edge; };
+    const auto sides = mesh.sides(face);
+    if (const auto h = std::ranges::find_if(sides, is_flipped); h != sides.end())
+      list({mesh.from(*h), mesh.to(mesh.next(Mesh::opposite(*h))), mesh.to(mesh.next(*h))},
+           mesh.is_padding(face));
+    else
+      list(mesh.triangles()[face], mesh.is_padding(face));
   }
+  std::ranges::sort(of_domain, {}, [&](const auto& v) {
+    return std::array{user(v[0]), user(v[1]), user(v[2])};
+  });
+  for (const auto& v : of_domain) triangles_.push_back({corner(v[0]), corner(v[1]), corner(v[2])});
+}
 
-  scale_.assign(start_.size(), 0.0);
+void JointStar::measure_scale() {
   std::vector<int> n(start_.size(), 0);
   for (const Triangle& triangle : triangles_)
     for (int k = 0; k < 3; ++k)

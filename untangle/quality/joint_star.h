@@ -57,6 +57,9 @@ class JointStar {
     double energy = 0.0;
   };
 
+  void list_faces(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge);
+  void list_triangles(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge);
+  void measure_scale();
   std::array<Point, 3> corners_at(const Triangle& triangle, std::span<const Point> places) const;
   double energy_at(std::span<const Point> places, std::span<Point> gradient) const;
   bool descend(const State& from, std::span<const Point> shift, State& to) const;

@@ -88,7 +88,7 @@ Point Star::best_place() const {
   return optimal_point({link_.data(), link_.size()}, x_);
 }
 
-// Of the other ends of the two constrained edges.
+// Ways to the other ends of the two constrained edges.
 std::array<double, 2> Star::range_along(const Point& direction) const {
   const double a = dot(constrained_[0] - x_, direction), b = dot(constrained_[1] - x_, direction);
   return {std::min(a, b), std::max(a, b)};
@@ -101,11 +101,26 @@ bool Star::may_move_along(const Point& direction) const {
   return low < 0.0 && high > 0.0;
 }
 
+// at(way): the place so far from the vertex.
+template <class At>
+Point Star::best_between(double low, double high, const At& at) const {
+  return at(maximum([&](double way) { return tangent_at(at(way)); }, low, 0.0, high));
+}
+
 std::optional<Point> Star::best_place_along(const Point& direction) const {
   if (!may_move_along(direction)) return std::nullopt;
   const auto [low, high] = range_along(direction);
-  const auto tangent = [&](double distance) { return tangent_at(along(x_, direction, distance)); };
-  return along(x_, direction, maximum(tangent, low, 0.0, high));
+  return best_between(low, high, [&](double way) { return along(x_, direction, way); });
+}
+
+std::optional<Point> Star::best_place_on(const Polyline& curve) const {
+  if (constrained_.size() != 2 || is_on_hull_) return std::nullopt;
+  const double here = curve.parameter_near(x_);
+  const double a = curve.way(here, curve.parameter_near(constrained_[0]));
+  const double b = curve.way(here, curve.parameter_near(constrained_[1]));
+  const auto [low, high] = std::minmax(a, b);
+  if (!(low < 0.0 && high > 0.0)) return std::nullopt;
+  return best_between(low, high, [&](double way) { return curve.at(here + way); });
 }
 
 }  // namespace kinemesh

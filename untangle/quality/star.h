@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/mesh.h"
+#include "core/polyline.h"
 #include "untangle/quality/optimal_point.h"
 
 namespace kinemesh {
@@ -36,8 +37,14 @@ class Star {
   Point best_place() const;
   std::optional<Point> best_place_along(const Point& direction) const;
 
+  // Likewise on a curve that the vertex is on, strictly between the other ends of the two constrained edges;
+  // where tangent_at has several maxima, one of them. Nothing on the convex border of the whole mesh.
+  std::optional<Point> best_place_on(const Polyline& curve) const;
+
  private:
   std::array<double, 2> range_along(const Point& direction) const;
+  template <class At>
+  Point best_between(double low, double high, const At& at) const;
 
   using Link = boost::container::small_vector<LinkEdge, 12>;
 

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/polyline.h"
 #include "core/types.h"
 
 namespace kinemesh {
@@ -14,10 +15,14 @@ struct VertexFreedom {
   std::vector<char>
       held;  // per vertex: stays although it could move, inside a solid body say; empty: none does
 
-  // Vertices of sliding borders, and the unit vectors along which they may move, either way, though they are
-  // on constrained edges. They stay strictly between the two ends of these edges; a vertex that is on another
-  // number of them than two, or fixed, does not move.
+  // Vertices of sliding borders may move along these, either way, though they are on constrained edges. They
+  // stay strictly between the two ends of these edges; a vertex that is on another number of them than two, or
+  // fixed, does not move.
+  // On straight lines: the unit vectors along them.
   std::unordered_map<int, Point> tangents = {};
+  // On curved ones: the numbers of the curves. On the convex hull of the mesh they stay.
+  std::unordered_map<int, int> curve_of = {};
+  std::vector<Polyline> curves = {};
 };
 
 }  // namespace kinemesh

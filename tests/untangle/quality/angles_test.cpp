@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -378,13 +379,144 @@ TEST(Angles, LetVerticesSlideAlongTheirLinesInOrder) {
   RecordProperty("slid", slid);
 }
 
+// The circles of an annulus slide.
+struct Circle {
+  std::vector<int> vertices;  // users' numbers, in order
+  Polyline line;
+};
+
+std::vector<Circle> circles_of(const MeshData& annulus) {
+  std::vector<Circle> circles;
+  for (const Marker& marker : annulus.markers) {
+    std::vector<int> vertices;
+    for (const Edge& edge : marker.edges) vertices.push_back(edge[0]);
+    std::ranges::sort(vertices, {},
+                      [&](int v) { return std::atan2(annulus.points[v].y, annulus.points[v].x); });
+    std::vector<Point> points;
+    for (const int v : vertices) points.push_back(annulus.points[v]);
+    points.push_back(points.front());
+    circles.push_back({std::move(vertices), Polyline(std::move(points))});
+  }
+  return circles;
+}
+
+VertexFreedom freedom_on(const std::vector<Circle>& circles, const Mesh& mesh) {
+  VertexFreedom freedom;
+  for (const Circle& circle : circles) {
+    for (const int user : circle.vertices)
+      freedom.curve_of.emplace(mesh.vertex_of_user(user), static_cast<int>(freedom.curves.size()));
+    freedom.curves.push_back(circle.line);
+  }
+  return freedom;
+}
+
+// Valid; vertices are thrown about, those of the circles along these.
+MeshData crowded(MeshData annulus, const std::vector<Circle>& circles, std::uint64_t seed) {
+  Random random(seed);
+  for (const auto& [vertices, line] : circles)
+    for (const int v : vertices) {
+      const double way = random.between(-0.45, 0.45) * line.length() / static_cast<double>(vertices.size());
+      annulus.points[v] = line.at(line.parameter_near(annulus.points[v]) + way);
+    }
+  Mesh mesh = scattered(build_mesh(annulus, {.frame = 0.25}), 0.5, seed);
+  if (!repair(mesh, true)) throw std::logic_error("no valid mesh");
+  return mesh.domain();
+}
+
+bool are_in_order(const Circle& circle, std::span<const Point> at) {
+  double round = 0.0;
+  for (std::size_t i = 0, n = circle.vertices.size(); i < n; ++i) {
+    const double here = circle.line.parameter_near(at[circle.vertices[i]]);
+    const double way = circle.line.way(here, circle.line.parameter_near(at[circle.vertices[(i + 1) % n]]));
+    if (!(way > 0.0)) return false;
+    round += way;
+  }
+  return std::abs(round / circle.line.length() - 1.0) < 1e-9;
+}
+
+TEST(Angles, LetVerticesSlideAlongCurvesInOrder) {
+  int slid = 0;
+  double gain = 0.0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const MeshData annulus = make_annulus(200, seed);
+    const auto circles = circles_of(annulus);
+    ASSERT_EQ(circles.size(), 2u);
+    const Mesh before = build_mesh(crowded(annulus, circles, seed), {.frame = 0.25});
+    const VertexFreedom freedom = freedom_on(circles, before);
+    Mesh mesh = before, stiff = before;
+    const auto outcome = improve_angles(mesh, {.angle = 35.0}, freedom);
+    gain += outcome.min_angle_after_deg - improve_angles(stiff, {.angle = 35.0}).min_angle_after_deg;
+    EXPECT_EQ(message(validate(mesh)), "") << seed;
+    EXPECT_GE(outcome.min_angle_after_deg, outcome.min_angle_before_deg) << seed;
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+      if (is_free(before, v) || mesh.position(v) == before.position(v)) continue;
+      ++slid;
+      ASSERT_TRUE(freedom.curve_of.contains(v)) << seed;
+      const Polyline& curve = freedom.curves[freedom.curve_of.at(v)];
+      const Point off = mesh.position(v) - curve.at(curve.parameter_near(mesh.position(v)));
+      EXPECT_LE(std::hypot(off.x, off.y), 1e-14) << seed;
+    }
+    for (const Circle& circle : circles) EXPECT_TRUE(are_in_order(circle, mesh.user_positions())) << seed;
+  }
+  EXPECT_GT(slid, 500);
+  EXPECT_GT(gain, 60.0);
+  RecordProperty("slid", slid);
+  RecordProperty("gain", std::to_string(gain));
+}
+
+// The mesh numbers its vertices otherwise, for some in no face, beside the outer circle.
+TEST(Angles, OnCurvesDoNotDependOnHowTheMeshIsStored) {
+  int with_others = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const MeshData annulus = make_annulus(200, seed);
+    const auto circles = circles_of(annulus);
+    const MeshData data = crowded(annulus, circles, seed);
+    MeshData more = shuffled(data, seed);
+    for (int i = 0; i < 40; ++i) more.points.push_back({0.9, 0.8 + 0.001 * i});
+    Mesh mesh = build_mesh(data, {.frame = 0.25}), other = build_mesh(more, {.frame = 0.6});
+    with_others += other.user_vertex(50) != mesh.user_vertex(50);
+    improve_angles(mesh, {.angle = 30.0}, freedom_on(circles, mesh));
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    improve_angles(other, {.angle = 30.0}, freedom_on(circles, other));
+    auto positions = other.user_positions();
+    positions.resize(data.points.size());
+    EXPECT_EQ(positions, mesh.user_positions()) << seed;
+    EXPECT_EQ(faces_of(other), faces_of(mesh)) << seed;
+  }
+  EXPECT_GT(with_others, 0);
+}
+
+TEST(Angles, LeaveTheConvexHullOfTheMeshWhereItIs) {
+  int slid = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const MeshData annulus = make_annulus(200, seed);
+    const auto circles = circles_of(annulus);
+    Mesh mesh = scattered(build_mesh(annulus), 1.0, seed);
+    ASSERT_TRUE(repair(mesh));
+    improve_angles(mesh, {.angle = 35.0}, freedom_on(circles, mesh));
+    EXPECT_EQ(message(validate(mesh)), "") << seed;
+    const auto now = mesh.user_positions();
+    for (std::size_t i = 0; i < circles.size(); ++i)
+      for (const int v : circles[i].vertices) {
+        const bool is_moved = now[v] != annulus.points[v], is_outer = glm::length(annulus.points[v]) > 0.75;
+        EXPECT_FALSE(is_moved && is_outer) << seed;
+        slid += is_moved;
+      }
+  }
+  EXPECT_GT(slid, 20);
+}
+
 TEST(Angles, RefuseWhatMakesNoSense) {
   Mesh mesh = build_mesh(make_grid(4, 4));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double angle : {0.0, -1.0, 60.0, nan, std::numeric_limits<double>::infinity()})
     EXPECT_THROW(improve_angles(mesh, {.angle = angle}), InputError) << angle;
   EXPECT_THROW(improve_angles(mesh, {.max_rounds = -1}), InputError);
-  EXPECT_THROW(improve_angles(mesh, {}, {.held = {true, false}, .tangents = {}}), InputError);
+  VertexFreedom held, on_curve;
+  held.held = {true, false};
+  on_curve.curve_of[3] = 0;
+  EXPECT_THROW(improve_angles(mesh, {}, held), InputError);
+  EXPECT_THROW(improve_angles(mesh, {}, on_curve), InputError);
   mesh.positions()[5] += Point(0.9, 0.9);
   EXPECT_THROW(improve_angles(mesh), InputError);
 }
