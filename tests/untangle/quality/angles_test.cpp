@@ -110,7 +110,7 @@ void expect_kept(const Mesh& before, const Mesh& mesh, const std::string& about)
 
 TEST(Angles, GetBetterAndNothingElseChanges) {
   int better = 0, met = 0, converged = 0;
-  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     const auto about = "seed " + std::to_string(seed);
     const Mesh before = bad_but_valid(seed);
     Mesh mesh = before;
@@ -129,9 +129,9 @@ TEST(Angles, GetBetterAndNothingElseChanges) {
     ++converged;
     EXPECT_EQ(what_is_left(mesh, angle), "") << about;
   }
-  EXPECT_GT(better, 1500);
-  EXPECT_GT(met, 500);
-  EXPECT_GT(converged, 1800);
+  EXPECT_GT(better, 1000);
+  EXPECT_GT(met, 330);
+  EXPECT_GT(converged, 1200);
   RecordProperty("better", better);
   RecordProperty("met", met);
   RecordProperty("converged", converged);
@@ -188,7 +188,7 @@ TEST(Angles, ChangeNothingOfWhatIsFarFromABadOne) {
 }
 
 TEST(Angles, SayWhatTheyHaveMovedAndFlipped) {
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Mesh before = bad_but_valid(seed);
     Mesh mesh = before;
     AngleUpkeep upkeep(mesh, {.angle = 30.0});
@@ -259,7 +259,7 @@ TEST(Angles, DoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Angles, DoNotDependOnScaleByPowersOfTwo) {
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Mesh before = bad_but_valid(seed);
     Mesh mesh = before;
     improve_angles(mesh, {.angle = 25.0});
@@ -274,7 +274,7 @@ TEST(Angles, DoNotDependOnScaleByPowersOfTwo) {
 }
 
 TEST(Angles, GetBetterInMirroredAndTurnedMeshes) {
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const MeshData data = bad_but_valid(seed).domain();
     MeshData turned = data;
     for (auto& p : turned.points) p = {-p.y, p.x};
@@ -293,7 +293,7 @@ TEST(Angles, GetBetterInMirroredAndTurnedMeshes) {
 
 TEST(Angles, NeverMoveWhatIsHeldOrFixed) {
   int moved = 0;
-  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const MeshData data = bad_but_valid(seed).domain();
     Random random(seed);
     std::vector<int> fixed;
