@@ -134,6 +134,9 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& file
 // [repair] as in a scenario, and no other table; mesh, time and output stay empty. Throws as parse_scenario.
 Scenario parse_motions(std::string_view text, const std::filesystem::path& file);
 
+const char* to_string(BorderCondition condition);  // as a scenario has it
+const char* to_string(Follow follow);
+
 // The scenario with absolute paths and every default written out: loads back to the same run, bit by bit.
 std::string to_toml(const Scenario& scenario);
 
