@@ -25,7 +25,11 @@ Point PrescribedPath::displacement(const Point& initial, double t) const {
 
 FormulaPath::FormulaPath(const Point& center, const std::string& x, const std::string& y,
                          const std::string& angle)
-    : PrescribedPath(center), x_("x", x), y_("y", y), angle_("angle", angle), turns_(angle != "0") {}
+    : PrescribedPath(center),
+      x_("x", x, FormulaIn::Time),
+      y_("y", y, FormulaIn::Time),
+      angle_("angle", angle, FormulaIn::Time),
+      turns_(angle != "0") {}
 
 Pose FormulaPath::pose(double t) const {
   const Point nowhere{0.0, 0.0};

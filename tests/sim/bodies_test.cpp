@@ -168,6 +168,13 @@ TEST_F(BodyRuns, MistakesHaveTheirLine) {
                "on = 'marker:top'\nblend = [0.1, 0.2]\n" +
                time),
       HasSubstr("blend makes a layer"));
+  EXPECT_THAT(
+      error_of(mesh + "[[body]]\non = 'marker:cylinder'\nmotion = [{field = 'rigid', x = 'x*t'}]\n" + time),
+      HasSubstr("a.toml:6: x = \"x*t\": only a formula in t is expected, but there is x at character 1"));
+  EXPECT_THAT(
+      error_of(mesh + "[[body]]\non = 'marker:cylinder'\nmotion = [\n{field = 'rigid',\nangle = 't+y'}]\n" +
+               time),
+      HasSubstr("a.toml:7: angle = \"t+y\": only a formula in t"));
   EXPECT_EQ(error_of(mesh + "[[body]]\non = 'marker:cylinder'\n" + time), "none");
 }
 
@@ -223,6 +230,14 @@ TEST_F(BodyRuns, LoadBackFromTheResolvedScenario) {
   EXPECT_EQ(to_toml(parse_scenario(text, folder_ / "again.toml")), text);
   EXPECT_THAT(text, HasSubstr("follow = 'elastic'\nstiffness = {0 = 2.5}"));
   EXPECT_THAT(text, HasSubstr("quality = 'angles'\nangle = 25.0"));
+}
+
+TEST_F(BodyRuns, LoadBackWithAnInteriorThatStays) {
+  const std::string text = to_toml(load({"interior.follow=none"}));
+  EXPECT_THAT(text, HasSubstr("[interior]\nfollow = 'none'\n"));
+  const Scenario again = parse_scenario(text, folder_ / "again.toml");
+  EXPECT_EQ(again.interior.options.follow, Follow::None);
+  EXPECT_EQ(to_toml(again), text);
 }
 
 // A step longer than the frame is deep: nothing inverts, a mesh exists, and it is found.
