@@ -7,6 +7,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/scanner.h"
+#include "motion/csv.h"
 #include "motion/rigid.h"
 
 namespace kinemesh {
@@ -41,8 +42,7 @@ std::optional<Point> FormulaPath::center() const {
 }
 
 TablePath::TablePath(const Point& center, const std::string& file) : PrescribedPath(center), file_(file) {
-  std::string text = read_file(file);
-  std::ranges::replace(text, ',', ' ');
+  const std::string text = without_commas(read_file(file));
   io::Scanner in(text, file, '#');
   for (const char* column : {"t", "x", "y", "angle"})
     if (in.word("the header t,x,y,angle") != column) in.fail("the header t,x,y,angle expected");
