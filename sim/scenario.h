@@ -31,7 +31,7 @@ struct MeshSpec {
   std::uint64_t seed = 1;  // of a shape
   int k = 2;               // of the shape umbilic
   double frame = 0.25;     // margin of the outer padding in bounding-box diagonals; 0: none
-  Where where;
+  Where where, frame_where;
 };
 
 // [[motion]], or one of a body's
@@ -60,6 +60,7 @@ struct BodyScenario {
 struct InteriorSpec {
   InteriorOptions options = {.follow = Follow::None};  // harmonic where there is a body
   Where where;
+  std::map<int, Where> label_where;  // of each stiffness
 };
 
 // [border]
