@@ -15,18 +15,18 @@ namespace {
   throw ParameterError(key, "body " + body + ": " + why);
 }
 
+// Several names in quotes, so that a sentence can go on after them.
 std::string joined(const std::vector<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names.size() == 1 ? names.front() : fmt::format("\"{}\"", fmt::join(names, ", "));
 }
 
 // Those that the part names have weight 1, others 0.
-std::vector<int> vertices_of(const Mesh& mesh, const std::vector<std::string>& on, const std::string& name) {
+std::vector<int> vertices_of(const Mesh& mesh, const std::vector<std::string>& on) {
   std::vector<char> is_named(mesh.n_vertices(), 0);
   for (const std::string& part : on) {
-    const Restriction restriction = parse_restriction(part);
-    if (!std::holds_alternative<OnMarker>(restriction.on) && !std::holds_alternative<OnLabel>(restriction.on))
-      refuse(name, "on", "on = \"" + part + "\", expected marker:NAME or label:N");
-    const auto named = weights(mesh, restriction);
+    if (part == "marker:" || (!part.starts_with("marker:") && !part.starts_with("label:")))
+      throw ParameterError("on", "a body: on = \"" + part + "\", expected marker:NAME or label:N");
+    const auto named = weights(mesh, parse_restriction(part));
     for (int v = 0; v < mesh.n_vertices(); ++v) is_named[v] |= named[v] != 0.0;
   }
   std::vector<int> vertices;
@@ -54,7 +54,7 @@ std::shared_ptr<const RigidPath> path_of(const std::shared_ptr<const Field>& fie
 
 Body::Body(const Mesh& initial, const BodySpec& spec) : name_(joined(spec.on)) {
   if (spec.on.empty()) throw ParameterError("on", "a body: marker:NAME or label:N expected");
-  vertices_ = vertices_of(initial, spec.on, name_);
+  vertices_ = vertices_of(initial, spec.on);
   markers_ = markers_of(spec.on);
   std::optional<Point> center;
   const auto add_path = [&](std::shared_ptr<const RigidPath> path) {

@@ -29,7 +29,7 @@ class Body {
   // no part at all, "motion" for noise, two centres, or a record that does not hold the body's vertices.
   Body(const Mesh& initial, const BodySpec& spec);
 
-  const std::string& name() const { return name_; }                  // its parts, as in `on`
+  const std::string& name() const { return name_; }                  // its parts; several in quotes
   std::span<const std::string> markers() const { return markers_; }  // that it names
   std::span<const int> vertices() const { return vertices_; }        // the mesh's numbers, ascending
   bool is_exact() const { return velocities_.empty(); }

@@ -131,9 +131,9 @@ std::vector<RegisteredField> body_fields() {
       {{"rigid",
         "turns about a centre and shifts, by formulas of t or a table",
         {{"center", Kind::Vector, "of the turn, where it is at the start", origin},
-         {"x", Kind::Text, "shift, length", "0"},
-         {"y", Kind::Text, "shift, length", "0"},
-         {"angle", Kind::Text, "radians, counter-clockwise", "0"},
+         {"x", Kind::Text, "shift, a formula of t, length", "0"},
+         {"y", Kind::Text, "shift, a formula of t, length", "0"},
+         {"angle", Kind::Text, "a formula of t, radians, counter-clockwise", "0"},
          {"file", Kind::OptionalFile, "table of t,x,y,angle instead of the formulas", ""}}},
        prescribed_path},
   };

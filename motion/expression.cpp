@@ -11,9 +11,11 @@ namespace {
 
 // muParser parsers write to their own buffers even when they only evaluate.
 struct Parser {
-  explicit Parser(const std::string& text) {
-    parser.DefineVar("x", &x);
-    parser.DefineVar("y", &y);
+  Parser(const std::string& text, FormulaIn in) {
+    if (in == FormulaIn::PlaceAndTime) {
+      parser.DefineVar("x", &x);
+      parser.DefineVar("y", &y);
+    }
     parser.DefineVar("t", &t);
     parser.DefineConst("pi", std::numbers::pi);
     parser.SetExpr(text);
@@ -31,17 +33,21 @@ struct Parser {
 }
 
 // muParser has assignments, which would change the variables.
-void refuse_assignment(const std::string& key, const std::string& text) {
+void refuse_assignment(const std::string& key, const std::string& text, FormulaIn in) {
+  const std::string expected = in == FormulaIn::Time ? "t" : "x, y and t";
   for (std::size_t i = text.find('='); i != std::string::npos; i = text.find('=', i + 1)) {
     if (i + 1 < text.size() && text[i + 1] == '=')
       ++i;
     else if (i == 0 || std::string("<>!").find(text[i - 1]) == std::string::npos)
-      refuse(key, text, "an assignment; only a formula in x, y and t is expected", i);
+      refuse(key, text, "an assignment; only a formula in " + expected + " is expected", i);
   }
 }
 
 // Without the position, which counts from 0, and the full stop.
-std::string reason(const mu::Parser::exception_type& error) {
+std::string reason(const mu::Parser::exception_type& error, FormulaIn in) {
+  const std::string token = error.GetToken();
+  if (in == FormulaIn::Time && (token == "x" || token == "y"))
+    return "only a formula in t is expected, but there is " + token;
   const std::string message = error.GetMsg();
   for (const char* tail : {" found at position", " at position", "."})
     if (const auto end = message.rfind(tail); end != std::string::npos && end > 0)
@@ -49,30 +55,30 @@ std::string reason(const mu::Parser::exception_type& error) {
   return message;
 }
 
-void check(const std::string& key, const std::string& text) {
-  refuse_assignment(key, text);
+void check(const std::string& key, const std::string& text, FormulaIn in) {
+  refuse_assignment(key, text, in);
   try {
-    Parser parser(text);
+    Parser parser(text, in);
     int n_results = 0;
     parser.parser.Eval(n_results);
     if (n_results != 1) refuse(key, text, "more than one formula; the next starts", text.find(','));
   } catch (const mu::Parser::exception_type& error) {
     const auto at =
         static_cast<std::size_t>(error.GetPos());  // from 0; beyond the end, or -1, for what is missing
-    refuse(key, text, reason(error), std::min(at, text.size()));
+    refuse(key, text, reason(error, in), std::min(at, text.size()));
   }
 }
 
 }  // namespace
 
 struct Formula::Parsers {
-  explicit Parsers(const std::string& text) : of_thread([text] { return Parser(text); }) {}
+  Parsers(const std::string& text, FormulaIn in) : of_thread([text, in] { return Parser(text, in); }) {}
   tbb::enumerable_thread_specific<Parser> of_thread;
 };
 
-Formula::Formula(const std::string& key, const std::string& text) {
-  check(key, text);
-  parsers_ = std::make_unique<Parsers>(text);
+Formula::Formula(const std::string& key, const std::string& text, FormulaIn in) {
+  check(key, text, in);
+  parsers_ = std::make_unique<Parsers>(text, in);
 }
 Formula::~Formula() = default;
 Formula::Formula(Formula&&) noexcept = default;

@@ -2,6 +2,7 @@
 // constant.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -10,12 +11,14 @@
 
 namespace kinemesh {
 
-// One formula f(x, y, t). May be evaluated from several threads at once: each has a parser of its own.
+enum class FormulaIn : std::uint8_t { PlaceAndTime, Time };
+
+// One formula f(x, y, t), or f(t). May be evaluated from several threads at once: each has a parser of its own.
 class Formula {
  public:
   // key: the parameter it is the value of, for messages. Throws ParameterError that quotes the text and says
   // where it stops making sense.
-  Formula(const std::string& key, const std::string& text);
+  Formula(const std::string& key, const std::string& text, FormulaIn in = FormulaIn::PlaceAndTime);
   ~Formula();
   Formula(Formula&&) noexcept;
   Formula& operator=(Formula&&) noexcept;

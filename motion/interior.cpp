@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "motion/conjugate_gradients.h"
 #include "motion/moving_parts.h"
+#include "motion/stiffness.h"
 #include "motion/vertex_blocks.h"
 
 namespace kinemesh {
@@ -15,9 +16,9 @@ namespace {
 
 void check(const InteriorOptions& options) {
   for (const auto& [label, stiffness] : options.stiffness)
-    if (!(stiffness > 0.0) || !std::isfinite(stiffness))
+    if (!(stiffness >= least_stiffness && stiffness <= most_stiffness))
       throw InputError("interior: the stiffness of label " + std::to_string(label) +
-                       " is to be a positive number");
+                       " is to be a number from 1e-6 to 1e6");
   if (!(options.tolerance > 0.0)) throw InputError("interior: a tolerance above 0 expected");
   if (options.max_iterations < 1) throw InputError("interior: max_iterations: a number above 0 expected");
 }

@@ -29,7 +29,7 @@ enum class Follow : std::uint8_t {
 struct InteriorOptions {
   Follow follow = Follow::Harmonic;
   std::map<int, double> stiffness =
-      {};                   // by label, times that of the area; > 0 and finite; 1 where not named
+      {};                   // by label, times that of the area; from 1e-6 to 1e6; 1 where not named
   double tolerance = 1e-5;  // norm of the residual over the diagonal, relative to that of the right-hand side
   int max_iterations = 10000;  // of each of the two solutions
 };
@@ -62,8 +62,8 @@ struct InteriorSolution {
 class Interior {
  public:
   // Takes most of the memory for meshes of this size, about 220 bytes a vertex for Harmonic and 430 for
-  // Elastic; the first solve() takes the rest. Throws InputError for a stiffness that is not positive and
-  // finite, a tolerance that is not positive, and max_iterations below 1.
+  // Elastic; the first solve() takes the rest. Throws InputError for a stiffness that is not from 1e-6
+  // to 1e6, a tolerance that is not positive, and max_iterations below 1.
   Interior(const Mesh& mesh, const InteriorOptions& options);
   ~Interior();
   Interior(Interior&&) noexcept;

@@ -75,11 +75,29 @@ std::vector<double> weights_of_term(const Mesh& mesh, const std::vector<MotionTe
   }
 }
 
+bool is_same_part(const std::string& a, const std::string& b) {
+  const auto part = parse_restriction(a).on, other = parse_restriction(b).on;
+  const auto *label = std::get_if<OnLabel>(&part), *other_label = std::get_if<OnLabel>(&other);
+  return label && other_label ? label->label == other_label->label : a == b;
+}
+
+// No part is of the last of these and of another one, too.
+void require_distinct(const std::vector<BodySpec>& specs, const std::vector<Body>& bodies) {
+  const std::size_t last = bodies.size() - 1;
+  for (std::size_t i = 0; i < last; ++i)
+    for (const std::string& part : specs[last].on)
+      for (const std::string& other : specs[i].on)
+        if (is_same_part(part, other))
+          throw ParameterError("on", fmt::format("{} is of two bodies, the other is {}; of one only expected",
+                                                 part, bodies[i].name()));
+}
+
 std::vector<Body> bodies_of(const Mesh& mesh, const std::vector<BodySpec>& specs) {
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < specs.size(); ++i) {
     try {
       bodies.emplace_back(mesh, specs[i]);
+      require_distinct(specs, bodies);
     } catch (const ParameterError& error) {
       throw ParameterError(fmt::format("body.{}.{}", i, error.key()), error.what());
     }

@@ -7,6 +7,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/scanner.h"
+#include "motion/csv.h"
 #include "motion/rigid.h"
 
 namespace kinemesh {
@@ -25,7 +26,11 @@ Point PrescribedPath::displacement(const Point& initial, double t) const {
 
 FormulaPath::FormulaPath(const Point& center, const std::string& x, const std::string& y,
                          const std::string& angle)
-    : PrescribedPath(center), x_("x", x), y_("y", y), angle_("angle", angle), turns_(angle != "0") {}
+    : PrescribedPath(center),
+      x_("x", x, FormulaIn::Time),
+      y_("y", y, FormulaIn::Time),
+      angle_("angle", angle, FormulaIn::Time),
+      turns_(angle != "0") {}
 
 Pose FormulaPath::pose(double t) const {
   const Point nowhere{0.0, 0.0};
@@ -37,8 +42,7 @@ std::optional<Point> FormulaPath::center() const {
 }
 
 TablePath::TablePath(const Point& center, const std::string& file) : PrescribedPath(center), file_(file) {
-  std::string text = read_file(file);
-  std::ranges::replace(text, ',', ' ');
+  const std::string text = without_commas(read_file(file));
   io::Scanner in(text, file, '#');
   for (const char* column : {"t", "x", "y", "angle"})
     if (in.word("the header t,x,y,angle") != column) in.fail("the header t,x,y,angle expected");

@@ -25,7 +25,7 @@ class PrescribedPath : public DisplacementField, public RigidPath {
   Point center_;
 };
 
-// By formulas of t; what stands for x and y is 0. Does not turn if the angle is "0".
+// By formulas of t. Does not turn if the angle is "0".
 class FormulaPath final : public PrescribedPath {
  public:
   FormulaPath(const Point& center, const std::string& x, const std::string& y, const std::string& angle);

@@ -9,6 +9,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/scanner.h"
+#include "motion/csv.h"
 
 namespace kinemesh {
 namespace {
@@ -25,7 +26,7 @@ constexpr const char* expected_names = "the names t,x,y,u,v or x,y,u,v expected"
 class GridReader {
  public:
   GridReader(std::string_view text, const std::string& file)
-      : file_(file), text_(text), scanner_((replace_commas(text_), text_), file, '#') {}
+      : file_(file), text_(without_commas(std::string(text))), scanner_(text_, file, '#') {}
 
   GridSamples read() {
     read_names();
@@ -41,8 +42,6 @@ class GridReader {
   }
 
  private:
-  static void replace_commas(std::string& text) { std::replace(text.begin(), text.end(), ',', ' '); }
-
   // Columns are five or four: with a line of names as that says, else as the first row has.
   void read_names() {
     if (scanner_.at_end() || !starts_with_letter()) return;

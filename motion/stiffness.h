@@ -24,6 +24,9 @@ namespace kinemesh {
 inline constexpr double poisson_ratio = 0.3;
 inline constexpr double lame_lambda = 2.0 * poisson_ratio / (1.0 - 2.0 * poisson_ratio);  // over mu
 
+// What a label may have; beyond, the solution would be lost in rounding.
+inline constexpr double least_stiffness = 1e-6, most_stiffness = 1e6;
+
 using Block = glm::dmat2;
 
 // s of each face; 0 for padding. An area below 1e-4 times the sum of the squares of the sides (angles of

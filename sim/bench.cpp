@@ -129,12 +129,21 @@ class Contest {
       tell({competitors_[i].strategy(), outcomes[i].record, competitors_[i].mesh(),
             competitors_[i].held_bytes()});
     }
-    if (valid == outcomes.end()) return why_stopped(outcomes.front());
+    if (valid == outcomes.end()) return why_all_stopped(outcomes);
     if (following_)
       go_on_with(valid - outcomes.begin());
     else
       std::swap(now_, next_);
     return std::nullopt;
+  }
+
+  // Each strategy's reason, where there are several.
+  std::string why_all_stopped(std::span<const StepOutcome> outcomes) const {
+    if (outcomes.size() == 1) return why_stopped(outcomes.front());
+    std::string reasons;
+    for (std::size_t i = 0; i < outcomes.size(); ++i)
+      reasons += (i == 0 ? "" : "; ") + competitors_[i].strategy() + ": " + why_stopped(outcomes[i]);
+    return reasons;
   }
 
   void go_on_with(std::ptrdiff_t competitor) {

@@ -1,5 +1,7 @@
 #include "sim/scenario.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include "core/shapes.h"
 #include "motion/registry.h"
 #include "motion/restriction.h"
+#include "motion/stiffness.h"
 #include "sim/overrides.h"
 #include "sim/shared_fields.h"
 #include "sim/toml_table.h"
@@ -75,17 +78,21 @@ MeshSpec read_mesh_spec(TomlTable& table, const std::filesystem::path& folder) {
     throw error_at(table.where(), "[mesh]: file or shape expected");
   }
   mesh.frame = table.not_negative("frame").value_or(mesh.frame);
+  mesh.frame_where = table.where("frame");
   table.refuse_other_keys();
   return mesh;
 }
 
-// Calls f() and gives its ParameterError the line of the key it is about.
+// Calls f() and gives its error the line of the key it is about: a parameter, or the file it names.
 template <class F>
 void with_lines(const MotionSpec& motion, const F& f) {
   try {
     f();
   } catch (const ParameterError& error) {
     throw error_at(motion.where_of(error.key()), error.what());
+  } catch (const InputError& error) {
+    if (error.file().empty()) throw error_at(motion.where, error.what());
+    throw error_at(motion.where_of("file"), std::string("file: ") + error.what());
   }
 }
 
@@ -184,17 +191,22 @@ std::vector<BodyScenario> read_bodies(TomlTable& root, const std::filesystem::pa
   return bodies;
 }
 
-std::map<int, double> read_stiffness(const toml::table& source) {
+void read_stiffness(const toml::table& source, InteriorSpec& interior) {
   TomlTable table(source, "[interior] stiffness");
-  std::map<int, double> stiffness;
   for (const auto& key : table.keys()) {
     int label = 0;
     const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), label);
     if (error != std::errc() || end != key.data() + key.size())
-      table.fail(key, "a label, that is an integer, expected");
-    stiffness[label] = *table.positive(key);
+      throw error_at(table.where(key),
+                     "interior.stiffness." + key + ": a label, that is an integer, expected");
+    const double value = *table.number(key);
+    if (!(value >= least_stiffness && value <= most_stiffness))
+      throw error_at(table.where(key),
+                     fmt::format("interior.stiffness.{}: {}, a number from {} to {} expected", key, value,
+                                 least_stiffness, most_stiffness));
+    interior.options.stiffness[label] = value;
+    interior.label_where[label] = table.where(key);
   }
-  return stiffness;
 }
 
 InteriorSpec read_interior(TomlTable& table, bool has_bodies) {
@@ -207,7 +219,7 @@ InteriorSpec read_interior(TomlTable& table, bool has_bodies) {
                                                   : Follow::None;
   if (const auto* stiffness = table.table("stiffness")) {
     if (follow == "none") table.fail("stiffness", "belongs to an interior that follows");
-    interior.options.stiffness = read_stiffness(*stiffness);
+    read_stiffness(*stiffness, interior);
   }
   table.refuse_other_keys();
   return interior;

@@ -31,7 +31,7 @@ struct MeshSpec {
   std::uint64_t seed = 1;  // of a shape
   int k = 2;               // of the shape umbilic
   double frame = 0.25;     // margin of the outer padding in bounding-box diagonals; 0: none
-  Where where;
+  Where where, frame_where;
 };
 
 // [[motion]], or one of a body's
@@ -60,6 +60,7 @@ struct BodyScenario {
 struct InteriorSpec {
   InteriorOptions options = {.follow = Follow::None};  // harmonic where there is a body
   Where where;
+  std::map<int, Where> label_where;  // of each stiffness
 };
 
 // [border]
@@ -133,6 +134,9 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& file
 // What moves a mesh that is there already, for set_up(scenario, mesh): [[body]], [[motion]], [interior], [border] and
 // [repair] as in a scenario, and no other table; mesh, time and output stay empty. Throws as parse_scenario.
 Scenario parse_motions(std::string_view text, const std::filesystem::path& file);
+
+const char* to_string(BorderCondition condition);  // as a scenario has it
+const char* to_string(Follow follow);
 
 // The scenario with absolute paths and every default written out: loads back to the same run, bit by bit.
 std::string to_toml(const Scenario& scenario);

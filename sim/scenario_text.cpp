@@ -10,18 +10,6 @@
 namespace kinemesh {
 namespace {
 
-const char* to_string(BorderCondition condition) {
-  switch (condition) {
-    case BorderCondition::Moving:
-      return "moving";
-    case BorderCondition::Slide:
-      return "slide";
-    case BorderCondition::Fixed:
-      break;
-  }
-  return "fixed";
-}
-
 // The shortest decimal that reads back as the same number, and reads as a floating-point one.
 std::string to_text(double number) {
   const std::string text = fmt::format("{}", number);
@@ -147,12 +135,12 @@ void write(Writer& out, const BodyScenario& body) {
   out.raw_line("motion", "[" + list + "]");
 }
 
-// Nothing where nothing follows, as in scenarios without bodies.
-void write(Writer& out, const InteriorSpec& interior) {
+// Nothing where nothing follows and no body is there, which is the default.
+void write(Writer& out, const InteriorSpec& interior, bool has_bodies) {
   const auto& [follow, stiffness, tolerance, most] = interior.options;
-  if (follow == Follow::None) return;
+  if (follow == Follow::None && !has_bodies) return;
   out.header("[interior]");
-  out.line("follow", std::string(follow == Follow::Harmonic ? "harmonic" : "elastic"));
+  out.line("follow", std::string(to_string(follow)));
   std::string list;
   for (const auto& [label, value] : stiffness)
     list += (list.empty() ? "" : ", ") + std::to_string(label) + " = " + to_text(value);
@@ -196,12 +184,28 @@ void write(Writer& out, const OutputSpec& output) {
 
 }  // namespace
 
+const char* to_string(BorderCondition condition) {
+  switch (condition) {
+    case BorderCondition::Moving:
+      return "moving";
+    case BorderCondition::Slide:
+      return "slide";
+    case BorderCondition::Fixed:
+      break;
+  }
+  return "fixed";
+}
+
+const char* to_string(Follow follow) {
+  return follow == Follow::Harmonic ? "harmonic" : follow == Follow::Elastic ? "elastic" : "none";
+}
+
 std::string to_toml(const Scenario& scenario) {
   Writer out;
   write(out, scenario.mesh);
   for (const auto& body : scenario.bodies) write(out, body);
   for (const auto& motion : scenario.motions) write(out, motion);
-  write(out, scenario.interior);
+  write(out, scenario.interior, !scenario.bodies.empty());
   write(out, scenario.border);
   write(out, scenario.time);
   write(out, scenario.repair);

@@ -1,7 +1,11 @@
 #include "sim/setup.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <string_view>
 #include <unordered_set>
 
@@ -139,6 +143,42 @@ void require_body_files(const Scenario& scenario, const Motion& motion, const st
   }
 }
 
+void require_labels(const InteriorSpec& interior, const Mesh& mesh) {
+  if (interior.label_where.empty()) return;
+  std::set<int> labels;
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    if (!mesh.is_padding(f)) labels.insert(mesh.label(f));
+  for (const auto& [label, where] : interior.label_where)
+    if (!labels.contains(label))
+      throw error_at(where, fmt::format("interior.stiffness.{}: no label {} in the mesh, expected one of: {}",
+                                        label, label, fmt::join(labels, ", ")));
+}
+
+// Whether a body has vertices that the motion names, and nobody but bodies and fixed borders has any.
+bool is_idle(const MotionSpec& spec, const Mesh& mesh, const Motion& motion) {
+  bool meets_body = false;
+  for (const std::string& part : spec.on) {
+    const auto named = weights(mesh, parse_restriction(part, spec.blend));
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+      if (!named.empty() && named[v] == 0.0) continue;
+      if (motion.body_of(v) == none && motion.freedom().of(v) != BorderCondition::Fixed) return false;
+      meets_body |= motion.body_of(v) != none;
+    }
+  }
+  return meets_body;
+}
+
+void add_notes_on_idle_motions(const Scenario& scenario, const Mesh& mesh, const Motion& motion,
+                               std::vector<std::string>& notes) {
+  if (motion.bodies().empty()) return;
+  for (const MotionSpec& spec : scenario.motions)
+    if (is_idle(spec, mesh, motion))
+      notes.push_back(
+          error_at(spec.where_of("on"), fmt::format("on: {} moves nothing, as bodies own all of {}",
+                                                    spec.field, fmt::join(spec.on, ", ")))
+              .what());
+}
+
 BorderConditions border_of(const Scenario& scenario, const Mesh& mesh) {
   const MarkerNames names(mesh.marker_names().begin(), mesh.marker_names().end());
   for (const auto& [marker, where] : scenario.border.marker_where)
@@ -181,7 +221,7 @@ void require_still_hull(const Scenario& scenario, const Mesh& mesh, const Border
   const auto vertex = leaving_hull_vertex(mesh, freedom);
   if (!vertex) return;
   const bool is_sliding = freedom.of(*vertex) == BorderCondition::Slide;
-  throw error_at(scenario.mesh.where,
+  throw error_at(scenario.mesh.frame_where,
                  "frame = 0, but the outer border " +
                      std::string(is_sliding ? "slides along a slanted line" : "may move") + " at vertex " +
                      std::to_string(mesh.user_vertex(*vertex)) +
@@ -234,6 +274,7 @@ SetUp set_up(const Scenario& scenario) {
 
 SetUp set_up(const Scenario& scenario, Mesh mesh) {
   BorderConditions border = border_of(scenario, mesh);
+  require_labels(scenario.interior, mesh);
   const auto bodies = bodies_of(scenario, mesh, border);
   auto terms = terms_of(scenario, mesh, border);
   try {
@@ -242,6 +283,7 @@ SetUp set_up(const Scenario& scenario, Mesh mesh) {
                   scenario.interior.options);
     require_body_files(scenario, motion, bodies);
     auto notes = motion.notes();
+    add_notes_on_idle_motions(scenario, mesh, motion, notes);
     return {std::move(mesh), std::move(motion), std::move(notes)};
   } catch (const ParameterError& error) {
     throw error_at(where_of(scenario, error.key()), error.what());

@@ -86,6 +86,12 @@ std::string as_written(const toml::node& node) {
   return text.str().empty() ? name_of(node.type()) : text.str();
 }
 
+// "interior.stiffness" of "[interior]" and "stiffness".
+std::string path_of(const std::string& table, std::string_view key) {
+  const auto end = table.find(']');
+  return (end == std::string::npos ? "" : table.substr(1, end - 1) + ".") + std::string(key);
+}
+
 std::optional<double> as_finite(const toml::node& node) {
   const std::optional<double> number = node.is_number() ? node.value<double>() : std::nullopt;
   return number && std::isfinite(*number) ? number : std::nullopt;
@@ -180,6 +186,8 @@ std::optional<std::vector<std::string>> TomlTable::texts(std::string_view key) {
   const auto* node = find(key);
   if (!node) return std::nullopt;
   if (node->is_string()) return std::vector{node->as_string()->get()};
+  if (const auto* list = node->as_array(); list && list->empty())
+    fail(key, "an empty list, a text in quotes or a list of such expected");
   std::vector<std::string> texts;
   if (const auto* list = node->as_array())
     for (const auto& element : *list)
@@ -206,7 +214,7 @@ std::optional<ParameterValue> TomlTable::value(std::string_view key) {
 const toml::table* TomlTable::table(std::string_view key) {
   const auto* node = find(key);
   if (node && !node->is_table())
-    fail(key, as_written(*node) + ", a table expected: [" + std::string(key) + "]");
+    fail(key, as_written(*node) + ", a table expected: [" + path_of(name_, key) + "]");
   return node ? node->as_table() : nullptr;
 }
 
@@ -217,7 +225,8 @@ std::vector<const toml::table*> TomlTable::tables(std::string_view key) {
   if (const auto* list = node->as_array())
     for (const auto& element : *list) tables.push_back(element.as_table());
   if (!node->is_array() || std::ranges::count(tables, nullptr) > 0)
-    fail(key, as_written(*node) + ", a list of tables expected: [[" + std::string(key) + "]]");
+    fail(key, as_written(*node) + ", a list of tables expected: " +
+                  (name_.empty() ? "[[" + std::string(key) + "]]" : std::string(key) + " = [{ ... }]"));
   return tables;
 }
 

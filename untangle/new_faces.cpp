@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -115,6 +116,19 @@ double squared_distance(const Point& p, const Point& a, const Point& b) {
   return glm::dot(off, off);
 }
 
+std::string name_of(const Edge& edge) {
+  return "edge " + std::to_string(edge[0]) + "-" + std::to_string(edge[1]);
+}
+
+std::string name_of(const Mesh& mesh, const Constraint& c) {
+  const bool is_interface = !c.is_border() && c.left != c.right;
+  const std::string line =
+      c.is_border()  ? "the border"
+      : is_interface ? "the interface of labels " + std::to_string(c.left) + " and " + std::to_string(c.right)
+                     : "the line";
+  return c.marker == none ? line : line + " of marker \"" + mesh.marker_names()[c.marker] + "\"";
+}
+
 // The border or interface the vertex has crossed: of those of the label it comes from, the nearest one.
 std::string crossed_by(const Mesh& mesh, int vertex) {
   const int home = mesh.home_label(vertex);
@@ -129,13 +143,8 @@ std::string crossed_by(const Mesh& mesh, int vertex) {
     }
   }
   if (!nearest) return {};
-  const std::string edge = "edge " + std::to_string(mesh.user_vertex(nearest->from)) + "-" +
-                           std::to_string(mesh.user_vertex(nearest->to));
-  const std::string marker =
-      nearest->marker == none ? "" : " of marker \"" + mesh.marker_names()[nearest->marker] + "\"";
-  if (nearest->is_border()) return "it has crossed the border" + marker + " near " + edge;
-  return "it has crossed the interface of labels " + std::to_string(nearest->left) + " and " +
-         std::to_string(nearest->right) + marker + " near " + edge;
+  return "it has crossed " + name_of(mesh, *nearest) + " near " +
+         name_of(user_ends(mesh, nearest->from, nearest->to));
 }
 
 class PatchBuilder {
@@ -286,6 +295,22 @@ class PatchBuilder {
 };
 
 }  // namespace
+
+std::string lines_of(const Mesh& mesh, const Defect& defect) {
+  std::string lines;
+  const auto add = [&](const std::string& culprit, const auto& is_of) {
+    std::set<std::string> names;  // two at a corner
+    for (const Constraint& c : mesh.constraints())
+      if (is_of(user_ends(mesh, c.from, c.to))) names.insert(name_of(mesh, c));
+    for (const std::string& name : names)
+      lines += (name != *names.begin() ? " and " : (lines.empty() ? "" : ", ") + culprit + " is of ") + name;
+  };
+  for (const int v : defect.vertices)
+    add("vertex " + std::to_string(v), [v](const Edge& ends) { return ends[0] == v || ends[1] == v; });
+  for (const Edge& edge : defect.edges)
+    add(name_of(edge), [&](const Edge& ends) { return ends == edge || ends == Edge{edge[1], edge[0]}; });
+  return lines;
+}
 
 void NewFaces::clear() {
   triangles.clear();

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/defect.h"
@@ -23,6 +24,10 @@ struct NewFaces {
   void clear();
   void add(const Triangle& corners, const Triangle& neighbours_of, const Triangle& constraints_of);
 };
+
+// What lines the vertices and edges of a defect are of, in words: borders, interfaces, markers. Cost: O(m) each for m
+// constrained edges.
+std::string lines_of(const Mesh& mesh, const Defect& defect);
 
 // Makes the patch. Keeps scratch memory for the next.
 class Finisher {

@@ -88,20 +88,21 @@ std::optional<Defect> RegionMesher::verdict(const Contact& contact) const {
         if (user(i) == none) return left_domain(i == contact.first ? contact.second : contact.first);
       defect.kind = DefectKind::CoincidentVertices;
       defect.vertices = {user(contact.first), user(contact.second)};
-      return defect;
+      break;
     case Contact::Kind::CrossingEdges:
       if (!is_constrained(contact.first) || !is_constrained(contact.second)) return std::nullopt;
       defect.kind = DefectKind::CrossingEdges;
       defect.edges = {user_edge(contact.first), user_edge(contact.second)};
-      return defect;
+      break;
     case Contact::Kind::PointOnEdge:
       if (!is_constrained(contact.second)) return std::nullopt;
       defect.kind = DefectKind::VertexOnEdge;
       defect.vertices = {user(contact.first)};
       defect.edges = {user_edge(contact.second)};
-      return defect;
+      break;
   }
-  return std::nullopt;
+  defect.detail = lines_of(*mesh_, defect);
+  return defect;
 }
 
 // Inside are the triangles the border goes around once. False if it is not simple, or if a constrained edge

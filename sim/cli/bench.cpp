@@ -130,7 +130,8 @@ SetUp check_all(std::span<const Scenario> scenarios) {
 }
 
 // All rounds, to a folder that is open. Returns the exit code.
-int compare(const BenchArguments& arguments, const Sweep& sweep, std::span<const Scenario> scenarios, SetUp first) {
+int compare(const BenchArguments& arguments, const Sweep& sweep, std::span<const Scenario> scenarios,
+            SetUp first) {
   const fs::path directory = directory_of(arguments);
   BenchLog log(directory, sweep.key);
   BenchPlots plots(fs::path(arguments.scenario).stem().string(), sweep.key);
@@ -182,7 +183,7 @@ int bench(const BenchArguments& arguments) {
   try {
     return compare(arguments, sweep, scenarios, std::move(first));
   } catch (const InputError& error) {  // by a field, for one: not before anything was written
-    print_error(error.what());
+    print_error(fmt::format("{}: {}", arguments.scenario, error.what()));
     return not_valid;
   }
 }

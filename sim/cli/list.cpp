@@ -1,8 +1,10 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <sstream>
+#include <vector>
 
 #include "core/io/mesh_io.h"
 #include "core/shapes.h"
@@ -90,9 +92,55 @@ void print_format(const FormatInfo& format) {
               fmt::format("{}: {} ({})", format.name, format.description, ways));
 }
 
+// As docs/scenarios.md has them.
+struct FieldGroup {
+  const char* title;
+  std::vector<std::string> names;
+};
+
+void list_fields() {
+  const FieldGroup groups[] = {
+      {"Fields: velocities, integrated together",
+       {"rotation", "zalesak", "translate", "shear", "swirl", "taylor-green", "gresho", "twist", "vortices",
+        "expression", "grid"}},
+      {"Fields: displacements from the initial positions, exact in time whatever the step",
+       {"rotor", "rigid", "pitch", "plunge", "displacement", "recorded"}},
+      {"Fields: noise, of a [[motion]] only", {"jitter", "brownian"}}};
+  auto left = fields();  // others are plug-ins, or a program has registered them
+  for (const auto& [title, names] : groups) {
+    fmt::print("{}\n", title);
+    for (const std::string& name : names) {
+      const auto field = std::ranges::find(left, name, &FieldInfo::name);
+      print_field(*field);
+      left.erase(field);
+    }
+    fmt::print("\n");
+  }
+  fmt::print("Fields: your own, velocities or displacements\n");
+  for (const FieldInfo& field : left) print_field(field);
+}
+
+void list_tables() {
+  fmt::print("Tables of a scenario that say what moves\n");
+  print_entry("  [[body]]", 16,
+              "borders or a solid part, `on` marker:NAME or label:N, that move exactly as told: `motion` is "
+              "a list of fields; no noise");
+  print_entry("  [[motion]]", 16,
+              "for the rest: one field, `on` all, marker:NAME, label:N or disc:[x,y,r], faded by `blend`");
+  print_entry("  [interior]", 16,
+              "`follow`, how the mesh between follows: harmonic (the default where there is a body), "
+              "elastic, or none (else); `stiffness` by label");
+  print_entry("  [border]", 16, "by marker, and `default`: fixed, moving or slide");
+  print_entry(
+      "  [repair]", 16,
+      "`strategy`, and `quality`: angles (the default where there is a body), with `angle` in degrees, or "
+      "another one of those below");
+}
+
 int list() {
-  fmt::print("Fields: what a [[motion]] can be\n");
-  for (const FieldInfo& field : fields()) print_field(field);
+  list_tables();
+  fmt::print("\n");
+  list_fields();
   fmt::print("\nStrategies: ways to repair a step\n");
   for (const StrategyInfo& strategy : strategies())
     print_entry("  " + strategy.name, 16, strategy.description);

@@ -36,9 +36,38 @@ void print_row(const char* name, const Value& value) {
   print_line(fmt::format("{:<22}{}", name, value));
 }
 
+// Whether a text says no more than that nothing is said.
+bool is_left_out(const MotionSpec& motion, const std::string& name, const ParameterValue& value) {
+  if (!std::holds_alternative<std::string>(value)) return false;
+  for (const FieldInfo& field : fields())
+    if (field.name == motion.field)
+      for (const ParameterInfo& parameter : field.parameters)
+        if (parameter.name == name) return parameter.otherwise == value;
+  return false;
+}
+
 std::string describe(const MotionSpec& motion) {
   std::string text = motion.field;
-  for (const auto& [name, value] : motion.parameters) text += fmt::format(" {} = {}", name, to_string(value));
+  for (const auto& [name, value] : motion.parameters)
+    if (!is_left_out(motion, name, value)) text += fmt::format(" {} = {}", name, to_string(value));
+  return text;
+}
+
+std::string describe(const BorderConditions& border) {
+  std::string text = fmt::format("default {}", to_string(border.otherwise));
+  for (const auto& [marker, condition] : border.by_marker)
+    text += fmt::format(", {} {}", marker, to_string(condition));
+  return text;
+}
+
+std::string describe(const RepairSpec& repair) {
+  return repair.quality == "angles" ? fmt::format("angles, of {} degrees", repair.angle) : repair.quality;
+}
+
+std::string describe(const InteriorOptions& interior) {
+  std::string text = to_string(interior.follow);
+  for (const auto& [label, value] : interior.stiffness)
+    text += fmt::format(", label {} stiffness {}", label, value);
   return text;
 }
 
@@ -65,11 +94,12 @@ void print_plan(const Scenario& scenario, const RunPlan& plan) {
   for (const BodyScenario& body : scenario.bodies) print_row("body", describe(body));
   for (const MotionSpec& motion : scenario.motions)
     print_row("motion", describe(motion) + describe_parts(motion));
-  if (const Follow follow = scenario.interior.options.follow; follow != Follow::None)
-    print_row("interior", follow == Follow::Harmonic ? "follows, harmonic" : "follows, elastic");
+  print_row("border", describe(scenario.border.conditions));
+  print_row("interior follows", describe(scenario.interior.options));
   print_row("time", fmt::format("{} steps of {} to {}{}", plan.steps, scenario.time.dt, plan.end_time,
                                 plan.is_adaptive ? ", fewer or more as they succeed" : ""));
   print_row("strategy", plan.strategy);
+  print_row("quality", describe(scenario.repair));
   print_row("threads", plan.threads);
   print_row("folder", plan.directory.string());
 }

@@ -98,12 +98,14 @@ int no_valid_mesh(const UntangleArguments& arguments, const Defect& defect, cons
   return not_valid;
 }
 
+constexpr const char* none_by_optimize = "; --strategy optimize, which moves vertices, finds none either";
+
 // Whether vertices that may move make a valid mesh possible. Pre: the mesh is as it was read.
 std::string hint_at_optimize(const UntangleArguments& arguments, Mesh& mesh) {
   if (arguments.strategy == "optimize") return "";
   return make_strategy("optimize")->repair(mesh, {})
              ? "; with --strategy optimize, which moves vertices, there is one"
-             : "; --strategy optimize, which moves vertices, finds none either";
+             : none_by_optimize;
 }
 
 RepairOutcome repair_seeds(const UntangleArguments& arguments, Mesh& mesh) {
@@ -150,7 +152,7 @@ int untangle(const UntangleArguments& arguments) try {
   print_summary(arguments, mesh, outcome.record, faces);
   return is_valid ? done : not_valid;
 } catch (const NoEmbedding& error) {
-  return no_valid_mesh(arguments, error.defect());
+  return no_valid_mesh(arguments, error.defect(), arguments.strategy == "optimize" ? "" : none_by_optimize);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/build.h"
+#include "core/io/mesh_io.h"
 #include "core/validate.h"
 #include "sim/bench.h"
 #include "sim/failed_step.h"
@@ -189,7 +190,73 @@ TEST_F(BodyRuns, MistakesHaveTheirLine) {
                "on = 'marker:top'\nblend = [0.1, 0.2]\n" +
                time),
       HasSubstr("blend makes a layer"));
+  EXPECT_THAT(
+      error_of(mesh + "[[body]]\non = 'marker:cylinder'\nmotion = [{field = 'rigid', x = 'x*t'}]\n" + time),
+      HasSubstr("a.toml:6: x = \"x*t\": only a formula in t is expected, but there is x at character 1"));
+  EXPECT_THAT(
+      error_of(mesh + "[[body]]\non = 'marker:cylinder'\nmotion = [\n{field = 'rigid', angle = 't+y'}]\n" +
+               time),
+      HasSubstr("a.toml:7: angle = \"t+y\": only a formula in t"));
+  const struct {
+    const char *scenario, *says;
+  } more[] = {
+      {"[interior]\nstiffness = {0 = 1.0, 3 = 2.0}",
+       "a.toml:7: interior.stiffness.3: no label 3 in the mesh, expected one of: 0"},
+      {"[interior]\nstiffness = {0 = 1e308}",
+       "a.toml:7: interior.stiffness.0: 1e+308, a number from 1e-06 to"},
+      {"[interior]\nstiffness = {0 = 1e-320}", "a.toml:7: interior.stiffness.0: "},
+      {"[interior]\nstiffness = [1]", "a.toml:7: stiffness: a list, a table expected: [interior.stiffness]"},
+      {"motion = 3", "a.toml:6: motion: 3, a list of tables expected: motion = [{ ... }]"},
+      {"motion = [{field = 'rigid', file = 'none.csv'}]", "a.toml:6: file: "},
+      {"motion = [{field = 'recorded', file = 'none.csv'}]", "a.toml:6: file: "},
+      {"[[body]]\non = []", "a.toml:7: on: an empty list"},
+      {"[[body]]\non = ''", "a.toml:7: a body: on = \"\", expected marker:NAME or label:N"},
+      {"[[body]]\non = 'all'", "a.toml:7: a body: on = \"all\", expected marker:NAME or label:N"},
+      {"[[body]]\non = ['marker:top', 'marker:cylinder']",
+       "a.toml:7: marker:cylinder is of two bodies, the other is marker:cylinder"},
+  };
+  for (const auto& [scenario, says] : more)
+    EXPECT_THAT(error_of(mesh + "[[body]]\non = 'marker:cylinder'\n" + scenario + "\n" + time),
+                HasSubstr(says));
   EXPECT_EQ(error_of(mesh + "[[body]]\non = 'marker:cylinder'\n" + time), "none");
+}
+
+TEST_F(BodyRuns, SayWhichMotionsMoveNothing) {
+  const std::string motion = "[[motion]]\nfield = 'jitter'\namplitude = 0.1\non = 'marker:";
+  const std::string text =
+      "[mesh]\nshape = 'square'\nvertices = 100\n[[body]]\non = ['marker:left', 'marker:right']\n" + motion +
+      "left'\n" + motion + "top'\n[time]\ndt = 0.1\nsteps = 1\n";
+  const auto notes = set_up(parse_scenario(text, "a.toml")).notes;
+  EXPECT_THAT(notes, testing::ElementsAre(
+                         HasSubstr("on a fixed border"),
+                         HasSubstr("a.toml:9: on: jitter moves nothing, as bodies own all of marker:left")));
+}
+
+TEST_F(BodyRuns, ThatMeetAWallNameIt) {
+  const std::string text =
+      "[mesh]\nshape = 'square'\nvertices = 100\n[[body]]\non = 'marker:right'\n"
+      "motion = [{field = 'rigid', x = '-t'}]\n[border]\ntop = 'slide'\nbottom = 'slide'\n"
+      "[time]\ndt = 0.5\nsteps = 2\n";
+  const RunSummary summary = go(parse_scenario(text, folder_ / "s.toml"), "out");
+  ASSERT_TRUE(summary.stopped);
+  EXPECT_THAT(*summary.stopped,
+              HasSubstr("is of the border of marker \"bottom\" and the border of marker \"left\""));
+}
+
+// Cells of a table may be in quotes, as spreadsheets write them.
+TEST_F(BodyRuns, TakeTablesWithQuotes) {
+  folder_.write("plain.csv", "t,x,y,angle\n0,0,0,0\n1,0.1,0.05,0.5\n");
+  folder_.write("quoted.csv",
+                "\xEF\xBB\xBF\"t\",\"x\", \"y\",\"angle\"\r\n\"0\",\"0\",0,0\r\n1,\"0.1\",0.05,\"0.5\"\r\n");
+  folder_.write("broken.csv", "t,x,y,angle\n0,0,0,0\n1,\"0,1\",0.05,0.5\n");
+  const auto with = [&](const char* file) {
+    return load({std::string("body.0.motion=[{field='rigid',center=[1,0.5],file='") + file + "'}]"});
+  };
+  for (const char* file : {"plain", "quoted"})
+    ASSERT_FALSE(go(with((std::string(file) + ".csv").c_str()), file).stopped);
+  EXPECT_EQ(read_mesh(folder_ / "plain/final.su2").mesh.points,
+            read_mesh(folder_ / "quoted/final.su2").mesh.points);
+  EXPECT_THROW((void)with("broken.csv"), InputError);
 }
 
 // Resuming would stop at the same step: what has to change is said, and no command that goes on.
@@ -309,6 +376,14 @@ TEST_F(BodyRuns, LoadBackFromTheResolvedScenario) {
   EXPECT_EQ(to_toml(parse_scenario(text, folder_ / "again.toml")), text);
   EXPECT_THAT(text, HasSubstr("follow = 'elastic'\nstiffness = {0 = 2.5}"));
   EXPECT_THAT(text, HasSubstr("quality = 'angles'\nangle = 25.0"));
+}
+
+TEST_F(BodyRuns, LoadBackWithAnInteriorThatStays) {
+  const std::string text = to_toml(load({"interior.follow=none"}));
+  EXPECT_THAT(text, HasSubstr("[interior]\nfollow = 'none'\n"));
+  const Scenario again = parse_scenario(text, folder_ / "again.toml");
+  EXPECT_EQ(again.interior.options.follow, Follow::None);
+  EXPECT_EQ(to_toml(again), text);
 }
 
 // A step longer than the frame is deep: nothing inverts, a mesh exists, and it is found.

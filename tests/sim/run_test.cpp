@@ -357,7 +357,7 @@ TEST_F(RunTest, BadInputLeavesNothingBehind) {
               HasSubstr(at("on.toml") + ":7: no marker 'leftt' in the mesh, did you mean 'left'?"));
   EXPECT_THAT(
       error_of(load_scenario(folder_ / "on.toml", std::vector<std::string>{"motion.0.on=marker:left"})),
-      HasSubstr(at("on.toml") + ":1: frame = 0, but the outer border may move"));
+      HasSubstr(at("on.toml") + ":3: frame = 0, but the outer border may move"));
   EXPECT_THAT(error_of(load_scenario(folder_ / "label.toml")), HasSubstr(at("label.toml") + ":6: "));
   EXPECT_FALSE(std::filesystem::exists(out()));
 }

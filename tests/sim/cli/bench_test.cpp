@@ -124,9 +124,21 @@ TEST_F(Bench, StopsWhereThereIsNoValidMesh) {
   const Result result = run({"bench", "s.toml", "--strategies", "global,remesh", "-o", "out"});
   EXPECT_EQ(result.code, 1);
   EXPECT_EQ(result.err_lines().size(), 1u) << result.err;
+  for (const char* part : {"s.toml: global: step 1 ", "; remesh: step 1 "})
+    EXPECT_THAT(result.err, ::testing::HasSubstr(part));
   const auto rows = table("out/bench.csv");
   ASSERT_EQ(rows.size(), 2u);
   for (const auto& row : rows) EXPECT_EQ(row.at("accepted"), "0");
+}
+
+TEST_F(Bench, NamesTheScenarioWhereBodiesDisagree) {
+  write("s.toml",
+        "[mesh]\nshape = 'square'\nvertices = 100\n[[body]]\non = 'marker:left'\n[[body]]\non = "
+        "'marker:bottom'\n"
+        "motion = [{field = 'rigid', x = 't'}]\n[time]\ndt = 0.1\nsteps = 2\n");
+  const Result result = run({"bench", "s.toml", "--strategies", "global", "-o", "out"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, ::testing::HasSubstr("s.toml: bodies marker:left and marker:bottom share"));
 }
 
 TEST_F(Bench, RefusesWhatItCannotDo) {

@@ -148,6 +148,22 @@ TEST_F(Run, DryRunSaysThePlanAndWritesNothing) {
   EXPECT_EQ(files(), std::vector<std::string>{"s.toml"});
 }
 
+TEST_F(Run, DryRunSaysWhatBodiesInteriorBorderAndQualityAre) {
+  write("s.toml",
+        "[mesh]\nshape = 'square'\nvertices = 300\n[[body]]\non = ['marker:left', 'marker:right']\n"
+        "motion = [{field = 'rigid', x = '0.1*t'}]\n[border]\ntop = 'slide'\n[time]\ndt = 0.1\nsteps = 1\n"
+        "[[motion]]\nfield = 'jitter'\namplitude = 0.1\non = 'marker:left'\n");
+  const Result result = run({"run", "s.toml", "--dry-run"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  for (const char* part : {"marker:left, marker:right; rigid center = [0, 0] x = \"0.1*t\"\n",
+                           "default fixed, top slide\n", "harmonic\n", "angles, of 25 degrees\n"})
+    EXPECT_TRUE(has(result.out, part)) << part << " in\n" << result.out;
+  EXPECT_TRUE(has(result.err, "s.toml:15: on: jitter moves nothing")) << result.err;
+  const Result other =
+      run({"run", "s.toml", "--dry-run", "--set", "interior.follow=none", "--set", "repair.quality=none"});
+  EXPECT_TRUE(has(other.out, "interior follows      none\n")) << other.out;
+}
+
 TEST_F(Run, SetChangesTheScenario) {
   write("s.toml", jitter_toml);
   const Result result =

@@ -48,6 +48,9 @@ TEST_F(Usage, ListNamesFieldsParametersStrategiesQualitiesShapesAndFormats) {
     EXPECT_TRUE(has(result.out, "\n  " + field.name)) << field.name;
     for (const ParameterInfo& parameter : field.parameters) EXPECT_TRUE(has(result.out, parameter.name));
   }
+  for (const char* part : {"[[body]]", "[interior]", "`follow`", "a formula of t"})
+    EXPECT_TRUE(has(result.out, part)) << part;
+  EXPECT_TRUE(has(result.out, "your own, velocities or displacements\n  plugin")) << result.out;
   for (const StrategyInfo& strategy : strategies()) EXPECT_TRUE(has(result.out, "\n  " + strategy.name));
   for (const QualityInfo& quality : qualities()) EXPECT_TRUE(has(result.out, "\n  " + quality.name));
   for (const ShapeInfo& shape : shapes()) EXPECT_TRUE(has(result.out, "\n  " + shape.name)) << shape.name;
