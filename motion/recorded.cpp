@@ -12,6 +12,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/pvd.h"
 #include "core/io/scanner.h"
+#include "motion/csv.h"
 
 namespace kinemesh {
 namespace {
@@ -115,7 +116,7 @@ RecordedPositions::RecordedPositions(const std::filesystem::path& file) : file_(
 }
 
 void RecordedPositions::read_table(std::string text) {
-  std::ranges::replace(text, ',', ' ');
+  text = without_commas(std::move(text));
   io::Scanner in(text, file_, '#');
   std::vector<std::vector<Point>> positions;
   TableReader(in, numbers_, times_, positions).read();

@@ -201,8 +201,9 @@ class Runner {
     const bool has_half = steps_.reject();
     summary_.rejected = steps_.state().rejected;
     if (!has_half) {
-      stop(why_stopped(outcome) + what_may_help(outcome) + why_not_halved(outcome.record.dt), false);
-      dump(end_time, why_stopped(outcome), outcome.defect ? outcome.defect->detail : "");
+      const std::string why = why_stopped(outcome) + what_may_help(outcome);
+      stop(why + why_not_halved(outcome.record.dt), false);
+      dump(end_time, why, outcome.defect ? outcome.defect->detail : "");
     }
     log_.write(outcome.record);
   }

@@ -151,7 +151,8 @@ bool LocalUntangling::remesh(const Mesh& mesh, const LocalExploration& explorati
 bool LocalUntangling::remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region) {
   if (!retention_.run(mesh, hole_.faces)) return false;
   rest_.dig(mesh, retention_.rest(), 0);
-  if (mesher_.run(mesh, rest_) != RegionMesher::Result::Done) return false;
+  if (mesher_.run(mesh, rest_) != RegionMesher::Result::Done || !fit(mesher_.new_faces(), rest_))
+    return false;
   finish_region(mesh, retention_.rest(), rest_, options, std::move(mesher_.new_faces()), region);
   if (!region.defect) region.record.kept = retention_.kept();
   return !region.defect;

@@ -325,6 +325,13 @@ void NewFaces::add(const Triangle& corners, const Triangle& neighbours_of, const
   constraints.push_back(constraints_of);
 }
 
+bool fit(const NewFaces& faces, const Hole& hole) {
+  std::size_t on_border = 0;
+  for (const Triangle& neighbours : faces.neighbours)
+    on_border += std::ranges::count_if(neighbours, [](int neighbour) { return neighbour < 0; });
+  return faces.size() == hole.size() && on_border == hole.border.size();
+}
+
 struct Finisher::Scratch {
   LabelFlood labels;
   PatchBuilder patch;

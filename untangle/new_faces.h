@@ -25,6 +25,9 @@ struct NewFaces {
   void add(const Triangle& corners, const Triangle& neighbours_of, const Triangle& constraints_of);
 };
 
+// As many faces as were taken out, and as many sides along the border.
+bool fit(const NewFaces& faces, const Hole& hole);
+
 // What lines the vertices and edges of a defect are of, in words: borders, interfaces, markers. Cost: O(m) each for m
 // constrained edges.
 std::string lines_of(const Mesh& mesh, const Defect& defect);

@@ -112,6 +112,7 @@ bool RegionRepair::remesh_rest(const Mesh& mesh, const RepairOptions& options, i
   if (!worker.retention.run(mesh, hole.faces)) return false;
   worker.rest.dig(mesh, retention.rest(), 0);
   if (worker.mesher.run(mesh, worker.rest) != RegionMesher::Result::Done) return false;
+  if (!fit(worker.mesher.new_faces(), worker.rest)) return false;
   if (worker.finisher.run(mesh, worker.rest, worker.mesher.new_faces(), options.allow_escaped,
                           patches_[region].patch))
     return false;

@@ -40,7 +40,7 @@ void write_meshes(const FailedStep& step, const ReplayArguments& arguments) {
   if (after) after->commit();
 }
 
-// What the run said when it had to stop, or nothing.
+// What a run would say if it had to stop, but for what it knows may help, or nothing.
 std::string reason_to_stop(const FailedStep& step) {
   try {
     const StepOutcome outcome = replay(step);
@@ -72,7 +72,7 @@ int replay_file(const ReplayArguments& arguments) {
                            step.program, step.message));
     return done;
   }
-  print_error(step.source + ": " + reason);
+  print_error(step.source + ": " + (step.message.starts_with(reason) ? step.message : reason));
   return not_valid;
 }
 

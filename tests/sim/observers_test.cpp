@@ -210,6 +210,20 @@ TEST(Observers, WhatTheyVetoDidNotHappen) {
   }
 }
 
+// Where faces that stay lie on either side of an edge, the rest touches itself there: then all goes.
+TEST(Retaining, GivesUpWhereTheRestTouchesItself) {
+  for (const unsigned seed : {6u, 7u, 8u, 9u}) {
+    std::mt19937 random(seed);
+    StepperOptions options{.strategy = "local"};
+    options.retain = true;
+    Stepper stepper = stepper_on(two_labels(12), options);
+    for (int n = 0; n < 12; ++n) {
+      (void)stepper.step(kicked(stepper, 0.1, random), 0.5);
+      ASSERT_FALSE(validate(stepper.mesh())) << seed << " " << n;
+    }
+  }
+}
+
 TEST(Observers, AreNotCalledForAStepThatFails) {
   Stepper stepper = stepper_on(two_labels(8), {});
   int calls = 0;
