@@ -240,7 +240,7 @@ std::vector<FreeVertex> AngleUpkeep::free_vertices_around(const Mesh& mesh, int 
           vertices.insert(vertices.end(), mesh.triangles()[f].begin(), mesh.triangles()[f].end());
       });
     std::ranges::sort(vertices, {}, user);
-    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   }
   std::vector<FreeVertex> free;
   for (const int v : vertices) {

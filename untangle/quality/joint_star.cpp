@@ -127,7 +127,7 @@ void JointStar::list_faces(const Mesh& mesh, std::span<const FreeVertex> vertice
   if (flipped_edge != none)
     for (const int h : {2 * flipped_edge, 2 * flipped_edge + 1}) faces_.push_back(mesh.face_of(h));
   std::ranges::sort(faces_);
-  faces_.erase(std::ranges::unique(faces_).begin(), faces_.end());
+  faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
 }
 
 void JointStar::list_triangles(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge) {
