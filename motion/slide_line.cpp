@@ -69,7 +69,7 @@ std::vector<Point> points_of(const Mesh& mesh, std::span<const int> vertices, bo
 // From the lowest number on, of the ends where there are any, the way on which lower ones come first.
 void put_in_order(const Mesh& mesh, std::vector<int>& chain, bool is_closed) {
   const auto user = [&](int v) { return mesh.user_vertex(v); };
-  if (is_closed) std::ranges::rotate(chain, std::ranges::min_element(chain, {}, user));
+  if (is_closed) std::rotate(chain.begin(), std::ranges::min_element(chain, {}, user), chain.end());
   const auto begin = chain.begin() + (is_closed ? 1 : 0);
   if (user(*begin) > user(chain.back())) std::reverse(begin, chain.end());
 }

@@ -141,7 +141,7 @@ void JointStar::list_triangles(const Mesh& mesh, std::span<const FreeVertex> ver
   std::vector<std::array<int, 3>> of_domain;  // vertices, the lowest user's number first
   const auto list = [&](std::array<int, 3> v, bool is_padding) {
     if (is_padding) return padding_.push_back({corner(v[0]), corner(v[1]), corner(v[2])});
-    std::ranges::rotate(v, std::ranges::min_element(v, {}, user));
+    std::rotate(v.begin(), std::ranges::min_element(v, {}, user), v.end());
     of_domain.push_back(v);
   };
   for (const int face : faces_) {
