@@ -1,7 +1,5 @@
 #include "motion/prescribed_path.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -11,12 +9,6 @@
 #include "motion/rigid.h"
 
 namespace kinemesh {
-namespace {
-
-// A step that ends where the table does may miss its last time by rounding.
-constexpr double slack = 1e-9;  // of the table's length
-
-}  // namespace
 
 Point PrescribedPath::displacement(const Point& initial, double t) const {
   const Pose at = pose(t);
@@ -59,21 +51,13 @@ TablePath::TablePath(const Point& center, const std::string& file) : PrescribedP
   if (rows_.empty()) in.fail("the file ends, at least one row t,x,y,angle expected");
 }
 
-bool TablePath::covers(double from, double to) const {
-  const double first = rows_.front().time, last = rows_.back().time, tolerance = slack * (last - first);
-  return from >= first - tolerance && to <= last + tolerance;
-}
-
 void TablePath::require_times(double from, double to) const {
-  if (!covers(from, to))
-    throw InputError(file_, 0,
-                     fmt::format("rows from time {} to {}, but needed from {} to {}", rows_.front().time,
-                                 rows_.back().time, from, to));
+  range().require(from, to, file_, "rows");
 }
 
 Pose TablePath::pose(double t) const {
   constexpr long double nan = std::numeric_limits<long double>::quiet_NaN();
-  if (!covers(t, t)) return {nan, nan, nan};
+  if (!range().covers(t, t)) return {nan, nan, nan};
   const auto next = std::ranges::upper_bound(rows_, t, {}, &Row::time);
   if (next == rows_.begin() || next == rows_.end()) {
     const Row& row = next == rows_.begin() ? rows_.front() : rows_.back();

@@ -10,6 +10,7 @@
 #include "motion/field.h"
 #include "motion/pose.h"
 #include "motion/registry.h"
+#include "motion/time_range.h"
 
 namespace kinemesh {
 
@@ -44,16 +45,17 @@ class TablePath final : public PrescribedPath {
   TablePath(const Point& center, const std::string& file);
   Pose pose(double t) const override;
 
-  void require_times(double from,
-                     double to) const;  // throws InputError that names the file: it does not reach
+  // Throws InputError that names the file: it does not reach from one time to the other.
+  void require_times(double from, double to) const;
 
  private:
-  bool covers(double from, double to) const;
-
-  std::string file_;
   struct Row {
     double time, x, y, angle;
   };
+
+  TimeRange range() const { return {rows_.front().time, rows_.back().time}; }
+
+  std::string file_;
   std::vector<Row> rows_;
 };
 

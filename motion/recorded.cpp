@@ -17,9 +17,6 @@
 namespace kinemesh {
 namespace {
 
-// A step that ends where the record does may miss its last time by rounding.
-constexpr double slack = 1e-9;  // of the record's length
-
 struct Row {
   double time;
   int vertex;
@@ -179,16 +176,8 @@ void RecordedPositions::require_all(std::span<const Point> positions) const {
                        fmt::format("no vertex begins at ({}, {}), where the body has one", p.x, p.y));
 }
 
-bool RecordedPositions::covers(double from, double to) const {
-  const double tolerance = slack * (times_.back() - times_.front());
-  return from >= times_.front() - tolerance && to <= times_.back() + tolerance;
-}
-
 void RecordedPositions::require_times(double from, double to) const {
-  if (!covers(from, to))
-    throw InputError(file_, 0,
-                     fmt::format("positions from time {} to {}, but needed from {} to {}", times_.front(),
-                                 times_.back(), from, to));
+  range().require(from, to, file_, "positions");
 }
 
 std::size_t RecordedPositions::Hash::operator()(const Point& p) const {
@@ -199,8 +188,8 @@ std::size_t RecordedPositions::Hash::operator()(const Point& p) const {
 Point RecordedPositions::displacement(const Point& initial, double t) const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto vertex = vertex_at_.find(initial);
-  return vertex == vertex_at_.end() || !covers(t, t) ? Point(nan, nan)
-                                                     : position(vertex->second, t) - initial;
+  return vertex == vertex_at_.end() || !range().covers(t, t) ? Point(nan, nan)
+                                                             : position(vertex->second, t) - initial;
 }
 
 Point RecordedPositions::position(int vertex, double t) const {

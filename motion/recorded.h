@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "motion/field.h"
+#include "motion/time_range.h"
 
 namespace kinemesh {
 
@@ -42,7 +43,7 @@ class RecordedPositions final : public DisplacementField {
   std::shared_ptr<const std::vector<Point>> read_points(const std::filesystem::path& mesh_file) const;
   void number_vertices();
   int number(int vertex) const;
-  bool covers(double from, double to) const;
+  TimeRange range() const { return {times_.front(), times_.back()}; }
   Point position(int vertex, double t) const;
 
   std::string file_;

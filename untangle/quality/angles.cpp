@@ -201,21 +201,22 @@ void AngleUpkeep::find_joint(const Mesh& mesh, Joint& joint) const {
   const double own = tangent_from_any_corner(mesh.corners(joint.face));
   joint.round = n_rounds_;
   for (const int n_rings : rings) {
-    if (try_joint(mesh, n_rings, none, joint)) return;
+    if (try_joint(mesh, free_vertices_around(mesh, joint.face, n_rings), none, joint)) return;
     if (joint.before < own) break;
   }
+  const auto free = free_vertices_around(mesh, joint.face, rings.front());
   auto sides = mesh.sides(joint.face);
   std::ranges::sort(sides, {}, [&](int h) { return users_of(mesh, h); });
   for (const int h : sides) {
     const int edge = Mesh::edge_of(h);
     const bool may_flip = mesh.is_flippable(edge) && tangents_of_flip(mesh, edge).after > 0.0;
-    if (may_flip && try_joint(mesh, rings.front(), edge, joint)) return;
+    if (may_flip && try_joint(mesh, free, edge, joint)) return;
   }
 }
 
 // True if it helps.
-bool AngleUpkeep::try_joint(const Mesh& mesh, int n_rings, int edge, Joint& joint) const {
-  const std::vector<FreeVertex> free = free_vertices_around(mesh, joint.face, n_rings);
+bool AngleUpkeep::try_joint(const Mesh& mesh, std::span<const FreeVertex> free, int edge,
+                            Joint& joint) const {
   const JointStar star(mesh, free, edge);
   joint.faces.assign(star.faces().begin(), star.faces().end());
   joint.before = star.tangent();

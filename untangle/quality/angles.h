@@ -77,9 +77,10 @@ class AngleUpkeep : public QualityPass {
   // Where the vertices around a bad face should go together.
   struct Joint {
     int face;
-    int round = 0;             // after which this was found
-    std::vector<int> faces{};  // that it has looked at: it stays right while they are as they were
-    int edge = none;           // to be flipped besides
+    int round = 0;  // after which this was found
+    std::vector<int>
+        faces{};      // that the last try has looked at: while they are as they were, it is left at that
+    int edge = none;  // to be flipped besides
     std::vector<Place> moves{};
     double before = 0.0, after = 0.0;  // after is 0 if nothing helps
   };
@@ -107,7 +108,7 @@ class AngleUpkeep : public QualityPass {
   void propose_jointly(const Mesh& mesh);
   bool is_outdated(const Joint& joint) const;
   void find_joint(const Mesh& mesh, Joint& joint) const;
-  bool try_joint(const Mesh& mesh, int n_rings, int edge, Joint& joint) const;
+  bool try_joint(const Mesh& mesh, std::span<const FreeVertex> free, int edge, Joint& joint) const;
   std::vector<FreeVertex> free_vertices_around(const Mesh& mesh, int face, int n_rings) const;
   void find_places(const Mesh& mesh);
   void ask_for_place(const Mesh& mesh, int vertex);
