@@ -1,11 +1,11 @@
 // From arrays to a mesh, with and without padding to fill in, and the sweep over it.
 #include <benchmark/benchmark.h>
 
-#include "core/build.h"
-#include "core/shapes.h"
-#include "core/validate.h"
 #include "inputs.h"
-#include "untangle/detect.h"
+#include "kinemesh/build.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/validate.h"
+#include "untangle/walk/detect.h"
 
 namespace kinemesh::bench {
 namespace {

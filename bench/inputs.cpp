@@ -3,10 +3,10 @@
 #include <map>
 #include <memory>
 
-#include "core/build.h"
-#include "core/shapes.h"
-#include "motion/motion.h"
-#include "motion/noise.h"
+#include "kinemesh/build.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/shapes.h"
+#include "motion/fields/noise.h"
 
 namespace kinemesh::bench {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/mesh.h"
-#include "core/mesh_data.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/mesh_data.h"
 
 namespace kinemesh::bench {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/io/mesh_io.h"
 #include "inputs.h"
+#include "kinemesh/mesh_io.h"
 
 namespace kinemesh::bench {
 namespace {

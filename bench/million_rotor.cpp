@@ -8,13 +8,13 @@
 #include <numbers>
 #include <vector>
 
-#include "core/build.h"
-#include "core/shapes.h"
-#include "core/stopwatch.h"
-#include "core/validate.h"
-#include "motion/motion.h"
-#include "motion/rigid.h"
-#include "sim/stepper.h"
+#include "core/base/stopwatch.h"
+#include "kinemesh/build.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/stepper.h"
+#include "kinemesh/validate.h"
+#include "motion/fields/rigid.h"
 
 namespace kinemesh {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <memory>
 
-#include "core/validate.h"
 #include "inputs.h"
-#include "untangle/detect.h"
-#include "untangle/global_walk.h"
-#include "untangle/local_exploration.h"
-#include "untangle/region_repair.h"
+#include "kinemesh/validate.h"
+#include "untangle/explore/local_exploration.h"
+#include "untangle/fill/region_repair.h"
+#include "untangle/walk/detect.h"
+#include "untangle/walk/global_walk.h"
 
 namespace kinemesh::bench {
 namespace {

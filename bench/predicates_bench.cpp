@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/predicates.h"
+#include "kinemesh/predicates.h"
 
 namespace kinemesh::bench {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "core/stopwatch.h"
-#include "core/validate.h"
+#include "core/base/stopwatch.h"
 #include "inputs.h"
-#include "untangle/strategy.h"
+#include "kinemesh/strategy.h"
+#include "kinemesh/validate.h"
 
 namespace kinemesh::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "c/kinemesh.h"
+#include "kinemesh.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,12 +12,12 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/build.h"
-#include "core/io/mesh_io.h"
-#include "core/orient.h"
-#include "core/validate.h"
-#include "sim/setup.h"
-#include "sim/stepper.h"
+#include "kinemesh/build.h"
+#include "kinemesh/mesh_io.h"
+#include "kinemesh/orient.h"
+#include "kinemesh/stepper.h"
+#include "kinemesh/validate.h"
+#include "sim/scenario/setup.h"
 
 struct kinemesh_mesh {
   kinemesh::MeshData data;

@@ -14,12 +14,12 @@ target_link_libraries(kinemesh_all INTERFACE ${KINEMESH_LIBRARIES})
 
 install(TARGETS ${KINEMESH_LIBRARIES} kinemesh_all kinemesh_c EXPORT kinemesh-targets)
 install(EXPORT kinemesh-targets NAMESPACE kinemesh:: DESTINATION ${KINEMESH_PACKAGE_DIR})
-# sim/cli/ belongs to the program; what includes CGAL is for our own sources.
-install(DIRECTORY ${KINEMESH_FOLDERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kinemesh
+install(DIRECTORY include/ TYPE INCLUDE)
+# Details that public headers still show; what includes CGAL is for our own sources.
+install(DIRECTORY ${KINEMESH_FOLDERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kinemesh/internal
   FILES_MATCHING PATTERN "*.h"
   PATTERN "cli" EXCLUDE PATTERN "report" EXCLUDE PATTERN "draw" EXCLUDE
   REGEX "/(cgal_triangulation|surface)\\.h$" EXCLUDE)
-install(FILES c/kinemesh.h TYPE INCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md TYPE DOC)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/kinemesh-config.cmake.in

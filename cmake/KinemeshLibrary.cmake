@@ -1,17 +1,49 @@
-# kinemesh_library(NAME SOURCES ... PUBLIC targets... PRIVATE targets...)
-# One static library per folder, exported as kinemesh::NAME.
+# kinemesh_room(FOLDER SOURCES names... HEADERS names... KNOWS rooms... USES targets...)
+# A room: the sources FOLDER/NAME.cpp, whose public headers are include/kinemesh/NAME.h. It may include from itself and
+# from the rooms it KNOWS, which come before it; tests/project reads every #include against these lines. It is compiled with
+# what it USES of others.
+function(kinemesh_room folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;KNOWS;USES" ${ARGN})
+  foreach(known ${ARG_KNOWS})
+    string(REPLACE "/" "_" known room_${known})
+    if(NOT TARGET ${known})
+      message(FATAL_ERROR "${folder} knows ${known}, which is no room before it")
+    endif()
+  endforeach()
+  list(TRANSFORM ARG_SOURCES PREPEND ${PROJECT_SOURCE_DIR}/${folder}/)
+  list(TRANSFORM ARG_SOURCES APPEND .cpp)
+  string(REPLACE "/" "_" room room_${folder})
+  add_library(${room} OBJECT ${ARG_SOURCES})
+  set_target_properties(${room} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${room} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+  # A fused multiply-add rounds once where two products are compared, and orientation(a, b, c) then differs from
+  # orientation(b, c, a): the static filters of core/exact are proved for separate roundings.
+  target_compile_options(${room} PRIVATE -ffp-contract=off)
+  target_link_libraries(${room} PRIVATE OpenMeshCore glm::glm ${ARG_USES})
+  set_property(GLOBAL APPEND PROPERTY KINEMESH_ROOMS ${room})
+  set_property(GLOBAL APPEND PROPERTY KINEMESH_USES_OF_${room} ${ARG_USES})
+endfunction()
+
+# kinemesh_library(NAME FOLDERS...): the rooms since the last one as a static library kinemesh_NAME, on top of FOLDERS.
 function(kinemesh_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target kinemesh_${name})
-  add_library(${target} STATIC ${ARG_SOURCES})
+  get_property(rooms GLOBAL PROPERTY KINEMESH_ROOMS)
+  set_property(GLOBAL PROPERTY KINEMESH_ROOMS "")
+  add_library(${target} STATIC)
   add_library(kinemesh::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  foreach(room ${rooms})
+    get_property(uses GLOBAL PROPERTY KINEMESH_USES_OF_${room})
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${room}>)
+    target_link_libraries(${target} PRIVATE ${uses})
+  endforeach()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:include/kinemesh>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/kinemesh/internal>)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  # A fused multiply-add rounds once where two products are compared, and orientation(a, b, c) then differs from
-  # orientation(b, c, a): the static filters of core/predicates.h are proved for separate roundings.
   target_compile_options(${target} PUBLIC -ffp-contract=off)
-  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  list(TRANSFORM ARGN PREPEND kinemesh_)
+  target_link_libraries(${target} PUBLIC OpenMeshCore glm::glm ${ARGN})
 endfunction()

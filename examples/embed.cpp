@@ -1,7 +1,7 @@
 #include <cstdio>
 
-#include "core/build.h"
-#include "sim/stepper.h"
+#include "kinemesh/build.h"
+#include "kinemesh/stepper.h"
 
 int main() {
   kinemesh::MeshData data;  // a triangle 4 5 6 inside a square 0 1 2 3

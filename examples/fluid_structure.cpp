@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/build.h"
-#include "core/shapes.h"
-#include "core/validate.h"
-#include "sim/stepper.h"
+#include "kinemesh/build.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/stepper.h"
+#include "kinemesh/validate.h"
 
 namespace {
 

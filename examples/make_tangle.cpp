@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/build.h"
-#include "core/io/mesh_io.h"
-#include "core/shapes.h"
-#include "untangle/detect.h"
-#include "untangle/local.h"
+#include "kinemesh/build.h"
+#include "kinemesh/local.h"
+#include "kinemesh/mesh_io.h"
+#include "kinemesh/shapes.h"
+#include "untangle/walk/detect.h"
 
 namespace {
 

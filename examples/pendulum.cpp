@@ -9,10 +9,10 @@
 #include <numbers>
 #include <vector>
 
-#include "core/build.h"
-#include "core/io/mesh_io.h"
-#include "core/shapes.h"
-#include "sim/stepper.h"
+#include "kinemesh/build.h"
+#include "kinemesh/mesh_io.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/stepper.h"
 
 namespace {
 

@@ -9,14 +9,14 @@
 #include <string>
 #include <utility>
 
-#include "core/build.h"
-#include "core/io/svg.h"
-#include "core/measure.h"
-#include "core/shapes.h"
-#include "core/validate.h"
-#include "motion/noise.h"
-#include "untangle/quality/delaunay_flipping.h"
-#include "untangle/quality/smoothing.h"
+#include "kinemesh/build.h"
+#include "kinemesh/delaunay.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/smoothing.h"
+#include "kinemesh/svg.h"
+#include "kinemesh/validate.h"
+#include "motion/fields/noise.h"
 
 namespace {
 

@@ -8,13 +8,13 @@
 #include <string_view>
 #include <vector>
 
-#include "core/build.h"
-#include "core/shapes.h"
-#include "core/validate.h"
-#include "motion/field.h"
-#include "motion/motion.h"
-#include "sim/cell_transfer.h"
-#include "sim/stepper.h"
+#include "kinemesh/build.h"
+#include "kinemesh/cell_transfer.h"
+#include "kinemesh/field.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/stepper.h"
+#include "kinemesh/validate.h"
 
 namespace {
 

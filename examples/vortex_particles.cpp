@@ -15,10 +15,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/build.h"
-#include "core/shapes.h"
-#include "core/triangulator.h"
-#include "sim/stepper.h"
+#include "core/cdt/triangulator.h"
+#include "kinemesh/build.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/stepper.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "motion/body.h"
+#include "kinemesh/body.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "motion/recorded.h"
+#include "motion/fields/recorded.h"
 #include "motion/restriction.h"
 
 namespace kinemesh {

@@ -10,8 +10,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "core/mesh.h"
-#include "motion/parameters.h"
+#include "kinemesh/mesh.h"
+#include "motion/fields/parameters.h"
 #include "motion/slide_line.h"
 
 namespace kinemesh {

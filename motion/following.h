@@ -5,9 +5,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/mesh.h"
-#include "motion/interior.h"
-#include "motion/motion.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/motion.h"
+#include "motion/interior/interior.h"
 
 namespace kinemesh {
 
@@ -17,7 +17,7 @@ struct FollowingState {
   double dt = 0.0;
 };
 
-// Solves for the interior (motion/interior.h) and puts sliding vertices on their lines. A step that is not accepted
+// Solves for the interior (motion/interior/interior.h) and puts sliding vertices on their lines. A step that is not accepted
 // leaves nothing behind.
 class Following {
  public:

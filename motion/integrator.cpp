@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "motion/parameters.h"
+#include "motion/fields/parameters.h"
 
 namespace kinemesh {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "core/types.h"
+#include "kinemesh/types.h"
 
 namespace kinemesh {
 

@@ -1,4 +1,4 @@
-#include "motion/motion.h"
+#include "kinemesh/motion.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/measure.h"
-#include "core/parallel.h"
+#include "core/base/parallel.h"
+#include "kinemesh/measure.h"
 #include "motion/noise_cut.h"
 
 namespace kinemesh {

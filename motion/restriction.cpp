@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 #include "motion/segment_index.h"
 
 namespace kinemesh {

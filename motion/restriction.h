@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/mesh.h"
-#include "motion/parameters.h"
+#include "kinemesh/mesh.h"
+#include "motion/fields/parameters.h"
 
 namespace kinemesh {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "core/types.h"
+#include "kinemesh/types.h"
 
 namespace kinemesh {
 

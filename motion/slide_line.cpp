@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 
 namespace kinemesh {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh.h"
-#include "core/polyline.h"
+#include "core/base/polyline.h"
+#include "kinemesh/mesh.h"
 
 namespace kinemesh {
 

@@ -7,12 +7,12 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/build.h"
-#include "core/shapes.h"
-#include "core/validate.h"
-#include "motion/motion.h"
-#include "motion/noise.h"
-#include "motion/rigid.h"
+#include "kinemesh/build.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/validate.h"
+#include "motion/fields/noise.h"
+#include "motion/fields/rigid.h"
 
 namespace kinemesh::aims {
 namespace {

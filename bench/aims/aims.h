@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh.h"
-#include "untangle/strategy.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/strategy.h"
 
 namespace kinemesh::aims {
 

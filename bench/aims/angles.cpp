@@ -7,12 +7,12 @@
 #include <stdexcept>
 
 #include "aims.h"
-#include "core/measure.h"
-#include "core/stopwatch.h"
-#include "core/triangulator.h"
-#include "sim/scenario.h"
-#include "sim/setup.h"
-#include "sim/threads.h"
+#include "core/base/stopwatch.h"
+#include "core/cdt/triangulator.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/scenario.h"
+#include "sim/scenario/setup.h"
+#include "sim/step/threads.h"
 
 namespace kinemesh::aims {
 namespace {

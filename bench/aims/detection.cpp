@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "aims.h"
-#include "core/stopwatch.h"
-#include "sim/threads.h"
-#include "untangle/detect.h"
+#include "core/base/stopwatch.h"
+#include "sim/step/threads.h"
+#include "untangle/walk/detect.h"
 
 namespace kinemesh::aims {
 namespace {

@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "aims.h"
-#include "core/build.h"
-#include "core/shapes.h"
-#include "sim/threads.h"
-#include "untangle/local.h"
+#include "kinemesh/build.h"
+#include "kinemesh/local.h"
+#include "kinemesh/shapes.h"
+#include "sim/step/threads.h"
 
 namespace kinemesh::aims {
 namespace {

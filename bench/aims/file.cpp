@@ -11,14 +11,14 @@
 #include <stdexcept>
 
 #include "aims.h"
-#include "core/build.h"
-#include "core/io/mesh_io.h"
-#include "core/shapes.h"
-#include "core/stopwatch.h"
-#include "motion/motion.h"
-#include "motion/rigid.h"
-#include "sim/stepper.h"
-#include "sim/threads.h"
+#include "core/base/stopwatch.h"
+#include "kinemesh/build.h"
+#include "kinemesh/mesh_io.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/stepper.h"
+#include "motion/fields/rigid.h"
+#include "sim/step/threads.h"
 
 namespace kinemesh::aims {
 namespace {

@@ -6,11 +6,11 @@
 #include <stdexcept>
 
 #include "aims.h"
-#include "core/build.h"
-#include "core/shapes.h"
-#include "core/stopwatch.h"
-#include "motion/noise.h"
-#include "sim/threads.h"
+#include "core/base/stopwatch.h"
+#include "kinemesh/build.h"
+#include "kinemesh/shapes.h"
+#include "motion/fields/noise.h"
+#include "sim/step/threads.h"
 
 namespace kinemesh::aims {
 namespace {

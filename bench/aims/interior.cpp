@@ -1,6 +1,6 @@
 // The interior's increments while the cylinder in a channel moves, against CGAL's triangulation of the same
 // points.
-#include "motion/interior.h"
+#include "motion/interior/interior.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <stdexcept>
 
 #include "aims.h"
-#include "core/build.h"
-#include "core/measure.h"
-#include "core/shapes.h"
-#include "core/stopwatch.h"
-#include "core/triangulator.h"
-#include "sim/threads.h"
+#include "core/base/stopwatch.h"
+#include "core/cdt/triangulator.h"
+#include "kinemesh/build.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/shapes.h"
+#include "sim/step/threads.h"
 
 namespace kinemesh::aims {
 namespace {

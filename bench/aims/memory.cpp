@@ -11,13 +11,13 @@
 #include <string>
 
 #include "aims.h"
-#include "core/build.h"
-#include "core/shapes.h"
-#include "core/stopwatch.h"
-#include "motion/motion.h"
-#include "motion/noise.h"
-#include "motion/rigid.h"
-#include "sim/stepper.h"
+#include "core/base/stopwatch.h"
+#include "kinemesh/build.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/stepper.h"
+#include "motion/fields/noise.h"
+#include "motion/fields/rigid.h"
 
 namespace kinemesh::aims {
 namespace {

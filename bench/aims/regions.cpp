@@ -4,10 +4,10 @@
 #include <stdexcept>
 
 #include "aims.h"
-#include "sim/threads.h"
-#include "untangle/detect.h"
-#include "untangle/global_walk.h"
-#include "untangle/region_mesher.h"
+#include "sim/step/threads.h"
+#include "untangle/fill/region_mesher.h"
+#include "untangle/walk/detect.h"
+#include "untangle/walk/global_walk.h"
 
 namespace kinemesh::aims {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "aims.h"
-#include "core/measure.h"
-#include "core/stopwatch.h"
-#include "sim/threads.h"
+#include "core/base/stopwatch.h"
+#include "kinemesh/measure.h"
+#include "sim/step/threads.h"
 #include "untangle/quality/quality_pass.h"
 
 namespace kinemesh::aims {

@@ -9,14 +9,14 @@
 #include <stdexcept>
 
 #include "aims.h"
-#include "core/build.h"
-#include "core/parallel.h"
-#include "core/shapes.h"
-#include "core/stopwatch.h"
-#include "motion/motion.h"
-#include "motion/noise.h"
-#include "sim/stepper.h"
-#include "sim/threads.h"
+#include "core/base/parallel.h"
+#include "core/base/stopwatch.h"
+#include "kinemesh/build.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/stepper.h"
+#include "motion/fields/noise.h"
+#include "sim/step/threads.h"
 
 namespace kinemesh::aims {
 namespace {
@@ -70,11 +70,13 @@ class Reading {
 
 void report_ratio(const std::string& what, double aim, const std::vector<double>& one,
                   const std::vector<double>& two, const Reading& reading) {
-  report({"2 threads against 1, jitter 0.2, same bits: " + what, Aim::Kind::AtLeast, aim,
-          median(one) / median(two),
-          fmt::format("1 thread {:.4g} ms; 2 threads {:.4g} ms; reading memory, by turns with the steps: {:.3g} times "
-                      "as fast with 2",
-                      median(one), median(two), reading.gain())});
+  report(
+      {"2 threads against 1, jitter 0.2, same bits: " + what, Aim::Kind::AtLeast, aim,
+       median(one) / median(two),
+       fmt::format(
+           "1 thread {:.4g} ms; 2 threads {:.4g} ms; reading memory, by turns with the steps: {:.3g} times "
+           "as fast with 2",
+           median(one), median(two), reading.gain())});
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/io/scanner.h"
-#include "core/orient.h"
+#include "kinemesh/orient.h"
 
 namespace kinemesh::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/io/mesh_io.h"
+#include "kinemesh/mesh_io.h"
 
 namespace kinemesh::io {
 

@@ -174,14 +174,16 @@ fs::path follow_links(const fs::path& path) {
 void require_regular_or_nothing(const fs::path& path) {
   std::error_code ignored;
   const auto type = fs::symlink_status(path, ignored).type();
-  if (type == fs::file_type::regular || type == fs::file_type::not_found || type == fs::file_type::none) return;
+  if (type == fs::file_type::regular || type == fs::file_type::not_found || type == fs::file_type::none)
+    return;
   throw InputError(path.string(), 0, name_of(type));
 }
 
 void require_place_for(const fs::path& path) {
   require_regular_or_nothing(path);
   const fs::path folder = folder_of(path) / ".";
-  if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) fail(path, "cannot be written", errno);
+  if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+    fail(path, "cannot be written", errno);
 }
 
 bool is_staged_name(std::string_view name) {

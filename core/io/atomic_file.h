@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 
 namespace kinemesh {
 

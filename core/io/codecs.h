@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/io/mesh_io.h"
+#include "kinemesh/mesh_io.h"
 
 namespace kinemesh::io {
 
@@ -34,7 +34,7 @@ ReadResult read_gmsh(std::string_view text, const std::string& file, const ReadO
 std::string write_gmsh(const MeshData& mesh);
 
 // VTU: one piece; ascii, base64 and appended data, plain or compressed by zlib, little endian. Vertex and
-// line cells are skipped with a note. The cell data `label` and what core/io/vtu.h writes beside it is
+// line cells are skipped with a note. The cell data `label` and what kinemesh/vtu.h writes beside it is
 // restored.
 ReadResult read_vtu(std::string_view text, const std::string& file, const ReadOptions& options);
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 
 namespace kinemesh::io {
 

@@ -17,7 +17,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
   // Where the file system knows no locks, nobody can hold it.
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(std::exchange(descriptor_, -1));
-  throw InputError(folder.string(), 0, "another kinemesh is writing to this folder; wait for it, or name another");
+  throw InputError(folder.string(), 0,
+                   "another kinemesh is writing to this folder; wait for it, or name another");
 }
 
 FolderLock::FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 
 namespace kinemesh {
 

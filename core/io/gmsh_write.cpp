@@ -1,9 +1,9 @@
 #include <map>
 
-#include "core/error.h"
 #include "core/io/codecs.h"
 #include "core/io/scanner.h"
 #include "core/io/text_buffer.h"
+#include "kinemesh/error.h"
 
 namespace kinemesh::io {
 namespace {

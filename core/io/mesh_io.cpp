@@ -1,4 +1,4 @@
-#include "core/io/mesh_io.h"
+#include "kinemesh/mesh_io.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include "core/io/atomic_file.h"
 #include "core/io/codecs.h"
 #include "core/io/scanner.h"
-#include "core/io/svg.h"
-#include "core/io/vtu.h"
 #include "core/io/writable.h"
+#include "kinemesh/svg.h"
+#include "kinemesh/vtu.h"
 
 namespace kinemesh {
 namespace {

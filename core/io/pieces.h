@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/io/scanner.h"
-#include "core/parallel.h"
 
 namespace kinemesh::io {
 

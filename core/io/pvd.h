@@ -1,10 +1,10 @@
-// ParaView's time series of meshes (.pvd), read; core/io/vtu.h writes them.
+// ParaView's time series of meshes (.pvd), read; kinemesh/vtu.h writes them.
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
-#include "core/io/vtu.h"
+#include "kinemesh/vtu.h"
 
 namespace kinemesh {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 
 namespace kinemesh::io {
 

@@ -1,4 +1,4 @@
-#include "core/io/svg.h"
+#include "kinemesh/svg.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,13 @@
 #include <map>
 #include <utility>
 
-#include "core/error.h"
+#include "core/base/printable.h"
 #include "core/io/svg_frame.h"
 #include "core/io/text_buffer.h"
 #include "core/io/writable.h"
 #include "core/io/xml.h"
-#include "core/predicates.h"
-#include "core/printable.h"
+#include "kinemesh/error.h"
+#include "kinemesh/predicates.h"
 
 namespace kinemesh {
 namespace {

@@ -1,7 +1,7 @@
 // Where things are in a drawing: from the user's coordinates to pixels.
 #pragma once
 
-#include "core/io/svg.h"
+#include "kinemesh/svg.h"
 
 namespace kinemesh::io {
 

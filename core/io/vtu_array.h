@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 
 namespace kinemesh::io {
 

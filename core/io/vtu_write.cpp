@@ -3,12 +3,12 @@
 #include <cmath>
 #include <functional>
 
-#include "core/error.h"
 #include "core/io/text_buffer.h"
-#include "core/io/vtu.h"
 #include "core/io/vtu_names.h"
 #include "core/io/writable.h"
 #include "core/io/xml.h"
+#include "kinemesh/error.h"
+#include "kinemesh/vtu.h"
 
 namespace kinemesh {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/error.h"
 #include "core/io/assembler.h"
 #include "core/io/atomic_file.h"
+#include "kinemesh/error.h"
 
 namespace kinemesh::io {
 namespace {

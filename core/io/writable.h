@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "core/mesh_data.h"
+#include "kinemesh/mesh_data.h"
 
 namespace kinemesh::io {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/build.h"
+#include "kinemesh/build.h"
 
 namespace heat {
 namespace {

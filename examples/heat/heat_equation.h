@@ -16,7 +16,7 @@
 #include "examples/heat/linear_solver.h"
 #include "examples/heat/p1_matrices.h"
 #include "examples/heat/turning_body.h"
-#include "sim/stepper.h"
+#include "kinemesh/stepper.h"
 
 namespace heat {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh_data.h"
-#include "sim/step_changes.h"
+#include "kinemesh/mesh_data.h"
+#include "kinemesh/step_changes.h"
 
 namespace heat {
 

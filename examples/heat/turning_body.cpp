@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/triangulator.h"
+#include "core/cdt/triangulator.h"
 
 namespace heat {
 namespace {

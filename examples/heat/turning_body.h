@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/mesh_data.h"
+#include "kinemesh/mesh_data.h"
 
 namespace heat {
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "motion/plugin.h"
+#include "kinemesh/plugin.h"
 
 typedef struct saddle {
   double rate, x, y;
@@ -49,6 +49,7 @@ static int evaluate(const void* state, double t, const double position[2], doubl
 }
 
 const kinemesh_plugin* kinemesh_motion_plugin(void) {
-  static const kinemesh_plugin plugin = {KINEMESH_PLUGIN_VERSION, KINEMESH_PLUGIN_VELOCITY, create, evaluate, free};
+  static const kinemesh_plugin plugin = {KINEMESH_PLUGIN_VERSION, KINEMESH_PLUGIN_VELOCITY, create, evaluate,
+                                         free};
   return &plugin;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/sides.h"
+#include "core/mesh/sides.h"
 
 namespace kinemesh::cli {
 namespace {

@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "core/types.h"
+#include "kinemesh/types.h"
 
 namespace kinemesh::cli {
 
-// Both take `opposite` as pair_sides (core/sides.h) gives it: side 3 f + k runs from corner k of face f to
+// Both take `opposite` as pair_sides (core/mesh/sides.h) gives it: side 3 f + k runs from corner k of face f to
 // the next.
 
 // Classes under "shares an edge with" of the faces that are `in`; one flag per face.

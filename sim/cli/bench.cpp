@@ -1,4 +1,4 @@
-#include "sim/bench.h"
+#include "kinemesh/compare.h"
 
 #include <fmt/core.h>
 #include <sys/resource.h>
@@ -9,17 +9,17 @@
 #include <optional>
 #include <set>
 
-#include "core/error.h"
-#include "sim/bench_bound.h"
+#include "kinemesh/error.h"
 #include "sim/cli/bench_directory.h"
 #include "sim/cli/bench_plots.h"
 #include "sim/cli/bench_score.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/cli/numbers.h"
-#include "sim/csv_log.h"
-#include "sim/setup.h"
-#include "sim/threads.h"
+#include "sim/compare/bench_bound.h"
+#include "sim/run/csv_log.h"
+#include "sim/scenario/setup.h"
+#include "sim/step/threads.h"
 
 namespace kinemesh::cli {
 namespace {

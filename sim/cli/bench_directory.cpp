@@ -9,8 +9,8 @@
 #include "core/io/atomic_file.h"
 #include "core/io/file_error.h"
 #include "sim/cli/bench_plots.h"
-#include "sim/run_directory.h"
-#include "sim/scenario_inputs.h"
+#include "sim/run/run_directory.h"
+#include "sim/scenario/scenario_inputs.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -47,14 +47,17 @@ void require_folder_or_nothing(const fs::path& path) {
   if (fs::exists(status) && !fs::is_directory(status)) throw InputError(path.string(), 0, "is not a folder");
 }
 
-void require_own(const fs::path& file, std::string_view mark, const std::vector<ScenarioInputs>& inputs, bool force) {
+void require_own(const fs::path& file, std::string_view mark, const std::vector<ScenarioInputs>& inputs,
+                 bool force) {
   require_regular_or_nothing(file);
   if (!fs::exists(file)) return;
   if (std::ranges::any_of(inputs, [&](const ScenarioInputs& all) { return all.contain(file); }))
-    throw InputError(file.string(), 0, "is an input of the scenario, and would be replaced; -o names another folder");
+    throw InputError(file.string(), 0,
+                     "is an input of the scenario, and would be replaced; -o names another folder");
   if (!force)
-    throw InputError(file.parent_path().string(), 0, "holds a benchmark (" + file.filename().string() +
-                                                         "); --force replaces it, -o names another folder");
+    throw InputError(
+        file.parent_path().string(), 0,
+        "holds a benchmark (" + file.filename().string() + "); --force replaces it, -o names another folder");
   if (!has_mark(file, mark))
     throw InputError(file.string(), 0, "is in the way: it is not of a benchmark, and not replaced");
 }

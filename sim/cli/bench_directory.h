@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/io/folder_lock.h"
-#include "sim/scenario.h"
+#include "kinemesh/scenario.h"
 
 namespace kinemesh::cli {
 

@@ -12,9 +12,9 @@
 #include <charconv>
 #include <optional>
 
+#include "core/base/printable.h"
 #include "core/io/atomic_file.h"
-#include "core/error.h"
-#include "core/printable.h"
+#include "kinemesh/error.h"
 #include "sim/cli/bench_score.h"
 
 namespace kinemesh::cli {

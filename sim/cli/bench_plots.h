@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/bench.h"
-#include "sim/bench_bound.h"
+#include "kinemesh/compare.h"
+#include "sim/compare/bench_bound.h"
 
 namespace kinemesh::cli {
 

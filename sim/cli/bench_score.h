@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/bench.h"
+#include "kinemesh/compare.h"
 
 namespace kinemesh::cli {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/safe_step.h"
+#include "kinemesh/safe_step.h"
 #include "sim/cli/check_report.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"

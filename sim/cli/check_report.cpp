@@ -7,10 +7,10 @@
 #include <numbers>
 #include <span>
 
-#include "core/build.h"
-#include "core/predicates.h"
-#include "core/sides.h"
-#include "core/validate.h"
+#include "core/mesh/sides.h"
+#include "kinemesh/build.h"
+#include "kinemesh/predicates.h"
+#include "kinemesh/validate.h"
 #include "sim/cli/adjacency.h"
 
 namespace kinemesh::cli {

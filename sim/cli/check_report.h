@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/defect.h"
-#include "core/mesh_data.h"
+#include "kinemesh/defect.h"
+#include "kinemesh/mesh_data.h"
 
 namespace kinemesh::cli {
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/printable.h"
+#include "core/base/printable.h"
 
 namespace kinemesh::cli {
 namespace {

@@ -9,7 +9,7 @@ namespace kinemesh::cli {
 // `text` as it is, at once. Does not throw: whether anybody can read it must not change what a run does.
 void say(const std::string& text) noexcept;
 
-// "kinemesh: MESSAGE", made printable (core/printable.h), so that it is one line whatever is in it.
+// "kinemesh: MESSAGE", made printable (core/base/printable.h), so that it is one line whatever is in it.
 void print_error(const std::string& message);
 
 // "kinemesh: note: MESSAGE".

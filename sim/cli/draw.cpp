@@ -7,16 +7,16 @@
 #include <optional>
 
 #include "core/io/atomic_file.h"
-#include "core/io/svg.h"
+#include "kinemesh/local.h"
+#include "kinemesh/svg.h"
 #include "sim/cli/commands.h"
-#include "sim/cli/file_arguments.h"
 #include "sim/cli/console.h"
+#include "sim/cli/file_arguments.h"
 #include "sim/cli/mesh_arguments.h"
 #include "sim/cli/numbers.h"
 #include "sim/draw/png.h"
 #include "sim/draw/region_figure.h"
 #include "sim/draw/step_of_run.h"
-#include "untangle/local.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -49,7 +49,8 @@ bool is_png(const std::string& output) {
 
 void check(const DrawArguments& arguments) {
   (void)is_png(arguments.output);
-  check_files({{"MESH", arguments.mesh.path}, {"--region", arguments.region}}, {{"--output", arguments.output}});
+  check_files({{"MESH", arguments.mesh.path}, {"--region", arguments.region}},
+              {{"--output", arguments.output}});
   require_regular_or_nothing(arguments.output);
   if (arguments.step != none) require_none_of_run(arguments.output, arguments.mesh.path);
   if (arguments.step == none && std::filesystem::is_directory(arguments.mesh.path))

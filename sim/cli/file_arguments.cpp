@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/io/mesh_io.h"
 #include "core/io/same_file.h"
+#include "kinemesh/error.h"
+#include "kinemesh/mesh_io.h"
+#include "kinemesh/scenario.h"
 #include "sim/cli/mesh_arguments.h"
-#include "sim/run_directory.h"
-#include "sim/scenario.h"
-#include "sim/scenario_inputs.h"
+#include "sim/run/run_directory.h"
+#include "sim/scenario/scenario_inputs.h"
 
 namespace kinemesh::cli {
 namespace {
@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 void require_apart(const FileArgument& written, const FileArgument& other) {
   if (other.path.empty() || !is_same_file(written.path, other.path)) return;
   throw InputError(written.path.string(), 0,
-                   fmt::format("{} and {} name the same file; another one expected for {}", other.name, written.name,
-                               written.name));
+                   fmt::format("{} and {} name the same file; another one expected for {}", other.name,
+                               written.name, written.name));
 }
 
 // The scenario of a run in `directory`; what cannot be read has no inputs that are known.

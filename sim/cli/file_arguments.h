@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/io/atomic_file.h"
-#include "core/mesh_data.h"
+#include "kinemesh/mesh_data.h"
 
 namespace kinemesh::cli {
 

@@ -6,12 +6,12 @@
 #include <sstream>
 #include <vector>
 
-#include "core/io/mesh_io.h"
-#include "core/shapes.h"
-#include "motion/registry.h"
+#include "kinemesh/mesh_io.h"
+#include "kinemesh/registry.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/strategy.h"
 #include "sim/cli/commands.h"
 #include "untangle/quality/quality_pass.h"
-#include "untangle/strategy.h"
 
 namespace kinemesh::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include <new>
 #include <system_error>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/cli/launcher.h"

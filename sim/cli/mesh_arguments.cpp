@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/io/mesh_io.h"
+#include "kinemesh/mesh_io.h"
 #include "sim/cli/console.h"
 
 namespace kinemesh::cli {

@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "core/build.h"
-#include "core/mesh_data.h"
+#include "kinemesh/build.h"
+#include "kinemesh/mesh_data.h"
 
 namespace kinemesh::cli {
 

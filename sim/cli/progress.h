@@ -5,8 +5,8 @@
 #include <chrono>
 #include <string>
 
+#include "kinemesh/run.h"
 #include "sim/cli/remesh_probe.h"
-#include "sim/run.h"
 
 namespace kinemesh::cli {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/stopwatch.h"
+#include "core/base/stopwatch.h"
 
 namespace kinemesh::cli {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/mesh.h"
-#include "sim/stepper.h"
-#include "untangle/strategy.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/stepper.h"
+#include "kinemesh/strategy.h"
 
 namespace kinemesh::cli {
 

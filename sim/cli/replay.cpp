@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "core/io/atomic_file.h"
+#include "kinemesh/run.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/cli/file_arguments.h"
 #include "sim/cli/mesh_arguments.h"
-#include "sim/failed_step.h"
-#include "sim/run.h"
+#include "sim/run/failed_step.h"
 
 namespace kinemesh::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/cli/file_arguments.h"
-#include "sim/run_directory.h"
 #include "sim/cli/numbers.h"
+#include "sim/run/run_directory.h"
 
 namespace kinemesh::cli {
 namespace {

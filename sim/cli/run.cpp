@@ -1,4 +1,4 @@
-#include "sim/run.h"
+#include "kinemesh/run.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <memory>
 
-#include "motion/registry.h"
+#include "kinemesh/registry.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/cli/numbers.h"

@@ -1,4 +1,4 @@
-#include "untangle/strategy.h"
+#include "kinemesh/strategy.h"
 
 #include <fmt/core.h>
 
@@ -8,14 +8,14 @@
 #include <set>
 
 #include "core/io/atomic_file.h"
+#include "kinemesh/local.h"
 #include "sim/cli/check_report.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/cli/file_arguments.h"
 #include "sim/cli/mesh_arguments.h"
 #include "sim/cli/numbers.h"
-#include "untangle/local.h"
-#include "untangle/stuck.h"
+#include "untangle/walk/stuck.h"
 
 namespace kinemesh::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 
 namespace kinemesh::draw {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "core/io/svg_frame.h"
-#include "core/predicates.h"
-#include "untangle/detect.h"
-#include "untangle/local_exploration.h"
+#include "kinemesh/predicates.h"
+#include "untangle/explore/local_exploration.h"
+#include "untangle/walk/detect.h"
 
 namespace kinemesh::draw {
 namespace {

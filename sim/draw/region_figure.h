@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/io/svg.h"
-#include "core/mesh.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/svg.h"
 
 namespace kinemesh::draw {
 

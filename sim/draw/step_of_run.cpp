@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "sim/patches.h"
+#include "kinemesh/error.h"
+#include "sim/run/patches.h"
 
 namespace kinemesh::draw {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/mesh_data.h"
+#include "kinemesh/mesh_data.h"
 
 namespace kinemesh::draw {
 

@@ -4,9 +4,9 @@
 #include <charconv>
 #include <utility>
 
-#include "core/io/mesh_io.h"
-#include "sim/patches.h"
-#include "sim/run_directory.h"
+#include "kinemesh/mesh_io.h"
+#include "sim/run/patches.h"
+#include "sim/run/run_directory.h"
 
 namespace kinemesh::report {
 namespace {

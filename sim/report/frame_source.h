@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/types.h"
+#include "kinemesh/types.h"
 
 namespace kinemesh::report {
 

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/atomic_file.h"
-#include "sim/csv_log.h"
 #include "sim/report/bench_rows.h"
 #include "sim/report/frame_encoder.h"
 #include "sim/report/page.h"
 #include "sim/report/table.h"
+#include "sim/run/csv_log.h"
 
 namespace kinemesh::report {
 namespace {

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 #include "tests/fuzz/memory_meter.h"
 #include "tests/fuzz/subjects.h"
 

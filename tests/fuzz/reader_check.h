@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/io/mesh_io.h"
+#include "kinemesh/mesh_io.h"
 
 namespace kinemesh {
 

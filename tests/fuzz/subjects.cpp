@@ -6,17 +6,17 @@
 #include <limits>
 #include <sstream>
 
-#include "core/io/mesh_io.h"
-#include "core/shapes.h"
-#include "motion/recorded.h"
-#include "motion/sampled_grid.h"
-#include "sim/binary.h"
-#include "sim/checkpoint.h"
+#include "kinemesh/mesh_io.h"
+#include "kinemesh/run.h"
+#include "kinemesh/shapes.h"
+#include "motion/fields/recorded.h"
+#include "motion/fields/sampled_grid.h"
 #include "sim/draw/step_of_run.h"
-#include "sim/failed_step.h"
-#include "sim/patches.h"
 #include "sim/report/table.h"
-#include "sim/run.h"
+#include "sim/run/binary.h"
+#include "sim/run/checkpoint.h"
+#include "sim/run/failed_step.h"
+#include "sim/run/patches.h"
 #include "tests/fuzz/reader_check.h"
 #include "tests/fuzz/vtu_sample.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/mesh_data.h"
+#include "kinemesh/mesh_data.h"
 #include "tests/fuzz/mutants.h"
 
 namespace kinemesh {

@@ -6,17 +6,17 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "core/build.h"
-#include "core/measure.h"
-#include "core/predicates.h"
-#include "core/shapes.h"
-#include "core/validate.h"
-#include "motion/motion.h"
-#include "motion/noise.h"
-#include "untangle/detect.h"
-#include "untangle/global_walk.h"
-#include "untangle/local_exploration.h"
-#include "untangle/region_repair.h"
+#include "kinemesh/build.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/predicates.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/validate.h"
+#include "motion/fields/noise.h"
+#include "untangle/explore/local_exploration.h"
+#include "untangle/fill/region_repair.h"
+#include "untangle/walk/detect.h"
+#include "untangle/walk/global_walk.h"
 
 namespace kinemesh {
 namespace {

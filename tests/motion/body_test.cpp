@@ -1,4 +1,4 @@
-#include "motion/body.h"
+#include "kinemesh/body.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,15 +10,15 @@
 #include <limits>
 #include <numbers>
 
-#include "motion/expression.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/registry.h"
+#include "motion/fields/expression.h"
+#include "motion/fields/noise.h"
+#include "motion/fields/oscillation.h"
+#include "motion/fields/prescribed_path.h"
+#include "motion/fields/rigid.h"
+#include "motion/fields/vortical.h"
 #include "motion/following.h"
-#include "motion/motion.h"
-#include "motion/noise.h"
-#include "motion/oscillation.h"
-#include "motion/prescribed_path.h"
-#include "motion/registry.h"
-#include "motion/rigid.h"
-#include "motion/vortical.h"
 #include "tests/motion/grid.h"
 
 namespace kinemesh {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/shapes.h"
+#include "kinemesh/shapes.h"
 #include "tests/motion/grid.h"
 
 namespace kinemesh {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/build.h"
+#include "kinemesh/build.h"
 
 namespace kinemesh::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "motion/parameters.h"
+#include "motion/fields/parameters.h"
 
 namespace kinemesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "motion/motion.h"
+#include "kinemesh/motion.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,13 +9,13 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/measure.h"
-#include "core/predicates.h"
-#include "motion/expression.h"
-#include "motion/noise.h"
-#include "motion/oscillation.h"
-#include "motion/rigid.h"
-#include "motion/vortical.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/predicates.h"
+#include "motion/fields/expression.h"
+#include "motion/fields/noise.h"
+#include "motion/fields/oscillation.h"
+#include "motion/fields/rigid.h"
+#include "motion/fields/vortical.h"
 #include "tests/motion/grid.h"
 
 namespace kinemesh {

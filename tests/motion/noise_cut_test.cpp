@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "core/predicates.h"
+#include "kinemesh/predicates.h"
 
 namespace kinemesh {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh.h"
-#include "core/mesh_data.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/mesh_data.h"
 
 namespace kinemesh::test {
 

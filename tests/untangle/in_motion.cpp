@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "tests/core/snapshot.h"
+#include "tests/core/mesh/snapshot.h"
 #include "tests/untangle/oracle.h"
 #include "tests/untangle/properties.h"
 #include "tests/untangle/random_tangles.h"
 #include "tests/untangle/repairs.h"
-#include "untangle/detect.h"
-#include "untangle/kinetic.h"
+#include "untangle/strategies/kinetic.h"
+#include "untangle/walk/detect.h"
 
 namespace kinemesh::test {
 namespace {

@@ -1,12 +1,12 @@
 // What detection and the global walk must find, by comparing every face with every other in exact integers.
-// Shares no code with core/predicates.h and untangle/. Pre everywhere: coordinates are multiples of 2^-24
-// (tests/core/sample_meshes.h, snapped), at most 32 in size; throws std::invalid_argument otherwise.
+// Shares no code with kinemesh/predicates.h and untangle/. Pre everywhere: coordinates are multiples of 2^-24
+// (tests/core/mesh/sample_meshes.h, snapped), at most 32 in size; throws std::invalid_argument otherwise.
 #pragma once
 
 #include <utility>
 #include <vector>
 
-#include "core/mesh.h"
+#include "kinemesh/mesh.h"
 
 namespace kinemesh::oracle {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
-#include "core/measure.h"
-#include "core/validate.h"
-#include "tests/core/snapshot.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/validate.h"
+#include "tests/core/mesh/snapshot.h"
 #include "tests/untangle/oracle.h"
 #include "tests/untangle/random_tangles.h"
 

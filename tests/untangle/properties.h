@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/mesh.h"
-#include "untangle/strategy.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/strategy.h"
 
 namespace kinemesh::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/predicates.h"
+#include "kinemesh/predicates.h"
 
 namespace kinemesh::test {
 namespace {

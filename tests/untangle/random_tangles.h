@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/build.h"
-#include "tests/core/sample_meshes.h"
+#include "kinemesh/build.h"
+#include "tests/core/mesh/sample_meshes.h"
 
 namespace kinemesh::test {
 

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "core/build.h"
-#include "core/validate.h"
-#include "untangle/strategy.h"
+#include "kinemesh/build.h"
+#include "kinemesh/strategy.h"
+#include "kinemesh/validate.h"
 
 namespace kinemesh::test {
 

@@ -8,11 +8,11 @@
 #include <tuple>
 #include <utility>
 
-#include "core/error.h"
-#include "core/measure.h"
-#include "core/parallel.h"
-#include "untangle/quality/around.h"
-#include "untangle/quality/joint_star.h"
+#include "core/base/parallel.h"
+#include "core/mesh/around.h"
+#include "kinemesh/error.h"
+#include "kinemesh/measure.h"
+#include "untangle/places/joint_star.h"
 
 namespace kinemesh {
 namespace {

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "core/face_minima.h"
-#include "core/mesh.h"
-#include "untangle/quality/joint_star.h"
+#include "core/sweep/face_minima.h"
+#include "kinemesh/mesh.h"
+#include "untangle/places/joint_star.h"
+#include "untangle/places/star.h"
 #include "untangle/quality/quality_pass.h"
-#include "untangle/quality/star.h"
 #include "untangle/quality/vertex_freedom.h"
 
 namespace kinemesh {
@@ -32,8 +32,8 @@ struct AngleCounts {
 //
 // In rounds, each bad face proposes what leaves the largest smallest angle among the faces it touches: the
 // flip of a side, which touches two faces, or the move of a corner to its best place
-// (untangle/quality/star.h), which touches the faces around it. In a round in which no bad face has a
-// proposal, each tries to move all vertices near it together (untangle/quality/joint_star.h): those of the
+// (untangle/places/star.h), which touches the faces around it. In a round in which no bad face has a
+// proposal, each tries to move all vertices near it together (untangle/places/joint_star.h): those of the
 // faces around it, or else, as long as no worse face is among those touched, of two, four, eight rings of
 // faces; or else those of the faces around it after the flip of a side. A proposal has to make the smallest
 // angle of the faces it touches larger, by 0.01 percent at least, and leave them upright, exactly. Of

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/types.h"
+#include "kinemesh/types.h"
 
 namespace kinemesh {
 namespace cotangents {

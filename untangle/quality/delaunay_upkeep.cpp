@@ -5,9 +5,9 @@
 #include <limits>
 #include <new>
 
-#include "core/face_sweep.h"
-#include "core/parallel.h"
-#include "core/predicates.h"
+#include "core/base/parallel.h"
+#include "core/sweep/face_sweep.h"
+#include "kinemesh/predicates.h"
 #include "untangle/quality/cotangents.h"
 
 namespace kinemesh {

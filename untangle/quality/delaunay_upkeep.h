@@ -1,7 +1,7 @@
 // Keeps a moving mesh the constrained Delaunay triangulation, step after step.
 #pragma once
 
-#include "untangle/quality/delaunay_flipping.h"
+#include "kinemesh/delaunay.h"
 #include "untangle/quality/quality_pass.h"
 
 namespace kinemesh {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "kinemesh/error.h"
 #include "untangle/quality/angles.h"
 #include "untangle/quality/delaunay_upkeep.h"
 #include "untangle/quality/vertex_sweeps.h"

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/mesh.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/strategy.h"
 #include "untangle/quality/vertex_freedom.h"
-#include "untangle/strategy.h"
 
 namespace kinemesh {
 

@@ -1,11 +1,11 @@
-#include "untangle/quality/smoothing.h"
+#include "kinemesh/smoothing.h"
 
 #include <array>
 
-#include "core/error.h"
-#include "core/measure.h"
-#include "untangle/local.h"
-#include "untangle/quality/around.h"
+#include "core/mesh/around.h"
+#include "kinemesh/error.h"
+#include "kinemesh/local.h"
+#include "kinemesh/measure.h"
 #include "untangle/quality/vertex_sweeps.h"
 
 namespace kinemesh {

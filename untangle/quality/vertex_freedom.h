@@ -4,13 +4,13 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/polyline.h"
-#include "core/types.h"
+#include "core/base/polyline.h"
+#include "kinemesh/types.h"
 
 namespace kinemesh {
 
 // By the mesh's numbers. Without it, vertices on no constrained edge that are not fixed move freely, and all
-// others stay (is_movable in untangle/quality/around.h).
+// others stay (is_movable in core/mesh/around.h).
 struct VertexFreedom {
   std::vector<char>
       held;  // per vertex: stays although it could move, inside a solid body say; empty: none does

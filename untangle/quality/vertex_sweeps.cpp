@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/measure.h"
-#include "untangle/quality/around.h"
+#include "core/mesh/around.h"
+#include "kinemesh/measure.h"
 
 namespace kinemesh {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh.h"
-#include "untangle/quality/optimal_point.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/smoothing.h"
+#include "untangle/places/optimal_point.h"
 #include "untangle/quality/quality_pass.h"
-#include "untangle/quality/smoothing.h"
 
 namespace kinemesh {
 

@@ -17,7 +17,8 @@ int main(void) {
   if (status)
     printf("%s\n", kinemesh_error());
   else
-    printf("kinemesh %s from C: %d inverted face, %d replaced\n", kinemesh_version(), step.inverted, step.replaced);
+    printf("kinemesh %s from C: %d inverted face, %d replaced\n", kinemesh_version(), step.inverted,
+           step.replaced);
   kinemesh_stepper_destroy(stepper);
   kinemesh_mesh_destroy(mesh);
   return status;

@@ -1,7 +1,7 @@
 // A user's program: a mesh from arrays, one step that inverts a face, and the record of its repair.
-#include <core/build.h>
-#include <core/validate.h>
-#include <sim/stepper.h>
+#include <kinemesh/build.h>
+#include <kinemesh/stepper.h>
+#include <kinemesh/validate.h>
 
 #include <cstdio>
 #include <vector>

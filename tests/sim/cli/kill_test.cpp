@@ -105,14 +105,18 @@ TEST_F(Kill, AnyCommandLeavesWholeFilesAndNothingInTheWay) {
   const std::vector<Writing> all = {
       {{"convert", "long.off", "out/a.vtu"}, {}, {"a.vtu"}},
       {{"untangle", "long.off", "-o", "out/b.off", "--report", "out/b.json"}, {}, {"b.off", "b.json"}},
-      {{"replay", "bad/failed_step.bin", "--before", "out/c.su2", "--after", "out/d.su2"}, {}, {"c.su2", "d.su2"}},
+      {{"replay", "bad/failed_step.bin", "--before", "out/c.su2", "--after", "out/d.su2"},
+       {},
+       {"c.su2", "d.su2"}},
       {{"report", "whole", "-o", "out/e.html"}, {}, {"e.html"}},
       {{"draw", "long.off", "-o", "out/f.svg"}, {}, {"f.svg"}},
       {{"draw", "long.off", "-o", "out/g.png"}, {}, {"g.png"}},
       {{"bench", "s.toml", "--strategies", "global", "-o", "out"},
        {"bench", "s.toml", "--strategies", "global", "-o", "out", "--force"},
        {}},
-      {{"run", "s.toml", "-o", "out", "-q", "--force"}, {"run", "s.toml", "-o", "out", "-q", "--resume"}, {}}};
+      {{"run", "s.toml", "-o", "out", "-q", "--force"},
+       {"run", "s.toml", "-o", "out", "-q", "--resume"},
+       {}}};
 
   struct Undisturbed {
     int code;

@@ -1,5 +1,5 @@
 // Numbers on the command line that are none, or too large, are refused before anything is done.
-#include "core/error.h"
+#include "kinemesh/error.h"
 #include "program.h"
 #include "sim/draw/png.h"
 

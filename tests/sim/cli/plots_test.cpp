@@ -5,10 +5,10 @@
 #include <map>
 #include <pugixml.hpp>
 
-#include "core/build.h"
-#include "core/printable.h"
-#include "core/shapes.h"
-#include "core/utf8.h"
+#include "core/base/printable.h"
+#include "core/base/utf8.h"
+#include "kinemesh/build.h"
+#include "kinemesh/shapes.h"
 #include "program.h"
 
 namespace kinemesh::testing {

@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "core/printable.h"
+#include "core/base/printable.h"
 #include "program.h"
 
 namespace kinemesh::testing {

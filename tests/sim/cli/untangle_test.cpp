@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "core/types.h"
+#include "kinemesh/types.h"
 #include "program.h"
 
 namespace kinemesh::testing {

@@ -1,10 +1,10 @@
 // What the program says about itself, and how it answers mistakes on the command line.
-#include "core/io/mesh_io.h"
-#include "core/shapes.h"
-#include "motion/registry.h"
+#include "kinemesh/mesh_io.h"
+#include "kinemesh/registry.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/strategy.h"
 #include "program.h"
 #include "untangle/quality/quality_pass.h"
-#include "untangle/strategy.h"
 
 namespace kinemesh::testing {
 namespace {

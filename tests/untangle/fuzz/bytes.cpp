@@ -1,6 +1,6 @@
 #include "tests/untangle/fuzz/bytes.h"
 
-#include "tests/core/sample_meshes.h"
+#include "tests/core/mesh/sample_meshes.h"
 
 namespace kinemesh::test {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/mesh.h"
-#include "core/mesh_data.h"
+#include "kinemesh/mesh.h"
+#include "kinemesh/mesh_data.h"
 
 namespace kinemesh::test {
 

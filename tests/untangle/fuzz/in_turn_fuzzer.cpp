@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/build.h"
-#include "tests/core/sample_meshes.h"
+#include "kinemesh/build.h"
+#include "tests/core/mesh/sample_meshes.h"
 #include "tests/untangle/fuzz/bytes.h"
-#include "tests/untangle/in_turn.h"
+#include "tests/untangle/strategies/in_turn.h"
 
 namespace {
 

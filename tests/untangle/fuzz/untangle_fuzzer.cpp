@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/build.h"
-#include "core/validate.h"
+#include "kinemesh/build.h"
+#include "kinemesh/validate.h"
 #include "tests/untangle/fuzz/bytes.h"
 #include "tests/untangle/in_motion.h"
 #include "tests/untangle/properties.h"

@@ -12,18 +12,18 @@
 #include <numeric>
 #include <set>
 
-#include "core/build.h"
-#include "core/error.h"
-#include "core/measure.h"
-#include "core/shapes.h"
-#include "core/validate.h"
-#include "tests/core/sample_meshes.h"
-#include "tests/core/snapshot.h"
+#include "core/mesh/around.h"
+#include "kinemesh/build.h"
+#include "kinemesh/error.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/shapes.h"
+#include "kinemesh/validate.h"
+#include "tests/core/mesh/sample_meshes.h"
+#include "tests/core/mesh/snapshot.h"
 #include "tests/untangle/quality/scattered.h"
 #include "tests/untangle/random_tangles.h"
 #include "tests/untangle/repairs.h"
-#include "untangle/quality/around.h"
-#include "untangle/quality/optimal_point.h"
+#include "untangle/places/optimal_point.h"
 
 namespace kinemesh::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/predicates.h"
-#include "tests/core/sample_meshes.h"
+#include "kinemesh/predicates.h"
+#include "tests/core/mesh/sample_meshes.h"
 
 namespace kinemesh {
 namespace {

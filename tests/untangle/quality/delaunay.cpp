@@ -4,8 +4,8 @@
 #include <set>
 #include <vector>
 
-#include "core/predicates.h"
-#include "core/triangulator.h"
+#include "core/cdt/triangulator.h"
+#include "kinemesh/predicates.h"
 
 namespace kinemesh::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/mesh.h"
+#include "kinemesh/mesh.h"
 
 namespace kinemesh::test {
 

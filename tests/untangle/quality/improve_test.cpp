@@ -1,13 +1,13 @@
 // From badly tangled to valid and smooth, as [Agarwal 2008, §1] proposes: smoothing and flipping in turn.
 #include <gtest/gtest.h>
 
-#include "core/measure.h"
-#include "tests/core/snapshot.h"
+#include "kinemesh/delaunay.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/smoothing.h"
+#include "tests/core/mesh/snapshot.h"
 #include "tests/untangle/quality/delaunay.h"
 #include "tests/untangle/quality/scattered.h"
 #include "tests/untangle/repairs.h"
-#include "untangle/quality/delaunay_flipping.h"
-#include "untangle/quality/smoothing.h"
 
 namespace kinemesh::test {
 namespace {

@@ -6,13 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/build.h"
-#include "core/measure.h"
-#include "core/predicates.h"
-#include "core/shapes.h"
-#include "tests/core/sample_meshes.h"
-#include "tests/core/snapshot.h"
-#include "untangle/detect.h"
+#include "kinemesh/build.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/predicates.h"
+#include "kinemesh/shapes.h"
+#include "tests/core/mesh/sample_meshes.h"
+#include "tests/core/mesh/snapshot.h"
+#include "untangle/walk/detect.h"
 
 namespace kinemesh::test {
 namespace {

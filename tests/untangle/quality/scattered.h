@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/mesh.h"
+#include "kinemesh/mesh.h"
 
 namespace kinemesh::test {
 

@@ -1,5 +1,5 @@
 // Smoothing of valid meshes never harms, that of tangled ones untangles first.
-#include "untangle/quality/smoothing.h"
+#include "kinemesh/smoothing.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "core/error.h"
-#include "core/measure.h"
-#include "core/shapes.h"
-#include "tests/core/snapshot.h"
+#include "kinemesh/error.h"
+#include "kinemesh/measure.h"
+#include "kinemesh/shapes.h"
+#include "tests/core/mesh/snapshot.h"
 #include "tests/untangle/quality/scattered.h"
 #include "tests/untangle/random_tangles.h"
 #include "tests/untangle/repairs.h"

@@ -1,0 +1,98 @@
+// Signs of areas of triangles whose corners move linearly, at the times at which others collapse: what an
+// event-driven triangulation decides by. Exact, for all finite coordinates: doubles under an error bound
+// first, and integers where these do not tell. No root is ever taken: a time is known by its quadratic.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "kinemesh/predicates.h"
+#include "kinemesh/types.h"
+
+namespace kinemesh {
+
+// At x0 + t (x1 - x0) for 0 <= t <= 1.
+struct MovingPoint {
+  Point x0, x1;
+};
+
+// (1 - t)^2 start + t (1 - t) mixed + t^2 end, each right within `error`, and so is its value in [0, 1].
+struct RoundedQuadratic {
+  double start, mixed, end, error;
+};
+
+// Of u x v, where u and v go from u0, v0 to u1, v1, themselves differences of exact points. A difference is
+// right within a factor 1 +- u, u = 2^-53, a product of two within 3u + O(u^2), each coefficient within 6u of
+// the sum of its products' magnitudes; weights and sums of a value take 6u more: 16u has room for rounding the
+// bound. What underflows is off by 2^-1074. Overflow makes bound or value infinite or NaN, so that comparisons
+// fail.
+inline RoundedQuadratic rounded_product(const Point& u0, const Point& u1, const Point& v0, const Point& v1) {
+  const double s0 = u0.x * v0.y, s1 = u0.y * v0.x, e0 = u1.x * v1.y, e1 = u1.y * v1.x;
+  const double m0 = u0.x * v1.y, m1 = u0.y * v1.x, m2 = u1.x * v0.y, m3 = u1.y * v0.x;
+  const double sum = std::abs(s0) + std::abs(s1) + std::abs(e0) + std::abs(e1) + std::abs(m0) + std::abs(m1) +
+                     std::abs(m2) + std::abs(m3);
+  return {s0 - s1, (m0 - m1) + (m2 - m3), e0 - e1, 16.0 * 0x1p-53 * sum + underflow_error};
+}
+
+// Throughout [0, 1], if its Bernstein coefficients are.
+inline bool is_surely_positive(const RoundedQuadratic& q) {
+  return q.start > q.error && 0.5 * q.mixed > q.error && q.end > q.error;
+}
+
+class CollapseTime;
+struct ExactQuadratic;
+
+// A product of two vectors that change linearly, as a function of time.
+class KineticQuadratic {
+ public:
+  static KineticQuadratic area(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c);  // twice
+  static KineticQuadratic dot(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c);   // at a
+
+  int sign_at(const CollapseTime& t) const;
+  int sign_after(const CollapseTime& t) const;  // throughout some open interval that begins at t
+
+  // When it goes from positive to negative, which happens once at most: strictly between `from`, or 0, and 1.
+  std::optional<CollapseTime> collapse_after(const CollapseTime* from = nullptr) const;
+
+ private:
+  friend class CollapseTime;
+  friend int compare(const CollapseTime& s, const CollapseTime& t);
+
+  KineticQuadratic(const std::array<MovingPoint, 3>& corners, bool is_dot);
+
+  double value_at(double t) const;
+  double guess_collapse(double& slope) const;
+  bool is_surely_positive_from(double t) const;
+  bool surely_collapses_in(double low, double high) const;
+  const ExactQuadratic& exact() const;
+
+  std::array<MovingPoint, 3> corners_;
+  bool is_dot_;
+  RoundedQuadratic rounded_;
+  mutable std::shared_ptr<const ExactQuadratic> exact_;  // once it was needed
+};
+
+// A time at which a quadratic goes from positive to negative.
+class CollapseTime {
+ public:
+  static CollapseTime end();  // 1
+
+  double low() const { return low_; }  // it lies in [low, high]
+  double high() const { return high_; }
+
+ private:
+  friend class KineticQuadratic;
+  friend int compare(const CollapseTime& s, const CollapseTime& t);
+
+  CollapseTime(const KineticQuadratic& quadratic, double low, double high)
+      : quadratic_(quadratic), low_(low), high_(high) {}
+
+  KineticQuadratic quadratic_;
+  double low_, high_;
+};
+
+int compare(const CollapseTime& s, const CollapseTime& t);  // sign of s - t
+
+}  // namespace kinemesh

@@ -1,0 +1,26 @@
+// Sides of bare triangles, before there are half-edges: side 3f + k runs from corner k of triangle f to
+// corner k + 1.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kinemesh/types.h"
+
+namespace kinemesh {
+
+struct SidePairs {
+  std::vector<int> opposite;  // per side: the side of another triangle that runs the other way, or none
+  int conflict = none;  // a triangle with a side that a third triangle has, or that another runs the same way
+};
+
+// Pairs sides by their end points. Pre: 0 <= corners < n_vertices. O(n + sum of d log d over vertex degrees
+// d).
+SidePairs pair_sides(std::span<const Triangle> triangles, int n_vertices);
+
+inline Edge ends_of_side(std::span<const Triangle> triangles, int side) {
+  const auto& t = triangles[side / 3];
+  return {t[side % 3], t[(side + 1) % 3]};
+}
+
+}  // namespace kinemesh

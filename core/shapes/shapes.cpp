@@ -1,0 +1,80 @@
+#include "kinemesh/shapes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/shapes/shape_parts.h"
+
+namespace kinemesh {
+namespace {
+
+const std::array<ShapeInfo, 6> all_shapes{{
+    {"square", "the unit square, random vertices", {"bottom", "right", "top", "left"}, 16},
+    {"disk", "the unit disk, random vertices", {"border"}, 16},
+    {"annulus", "radius 1/2 to 1, random vertices", {"outer", "inner"}, 48},
+    {"channel",
+     "[0,4]x[0,1] around a cylinder, graded",
+     {"inlet", "outlet", "bottom", "top", "cylinder"},
+     200},
+    {"airfoil", "NACA 0012 in a round far field, graded", {"airfoil", "farfield"}, 400},
+    {"umbilic", "a tangle that covers its shadow k + 1 times", {"border"}, 379},
+}};
+
+const ShapeInfo& info(std::string_view name) {
+  const auto found =
+      std::find_if(all_shapes.begin(), all_shapes.end(), [&](const auto& s) { return s.name == name; });
+  if (found != all_shapes.end()) return *found;
+  std::string names;
+  for (const auto& shape : all_shapes) names += (names.empty() ? "" : ", ") + shape.name;
+  throw InputError("unknown shape \"" + std::string(name) + "\", expected one of " + names);
+}
+
+}  // namespace
+
+void require_vertices(std::string_view shape, int vertices, int minimum) {
+  if (vertices >= minimum) return;
+  throw InputError(std::string(shape) + ": " + std::to_string(vertices) + " vertices, expected at least " +
+                   std::to_string(minimum));
+}
+
+MeshData make_grid(int nx, int ny) {
+  if (nx < 1 || ny < 1)
+    throw InputError("grid: " + std::to_string(nx) + " by " + std::to_string(ny) +
+                     " cells, expected at least 1 by 1");
+  const auto vertex = [nx](int i, int j) { return j * (nx + 1) + i; };
+  MeshData mesh;
+  mesh.points.reserve(static_cast<std::size_t>(nx + 1) * (ny + 1));
+  for (int j = 0; j <= ny; ++j) {
+    for (int i = 0; i <= nx; ++i)
+      mesh.points.emplace_back(static_cast<double>(i) / nx, static_cast<double>(j) / ny);
+  }
+  mesh.triangles.reserve(static_cast<std::size_t>(nx) * ny * 2);
+  for (int j = 0; j < ny; ++j) {
+    for (int i = 0; i < nx; ++i) {
+      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+    }
+  }
+  mesh.markers = {{"bottom", {}}, {"right", {}}, {"top", {}}, {"left", {}}};
+  for (int i = 0; i < nx; ++i) mesh.markers[0].edges.push_back({vertex(i, 0), vertex(i + 1, 0)});
+  for (int j = 0; j < ny; ++j) mesh.markers[1].edges.push_back({vertex(nx, j), vertex(nx, j + 1)});
+  for (int i = nx; i > 0; --i) mesh.markers[2].edges.push_back({vertex(i, ny), vertex(i - 1, ny)});
+  for (int j = ny; j > 0; --j) mesh.markers[3].edges.push_back({vertex(0, j), vertex(0, j - 1)});
+  return mesh;
+}
+
+std::span<const ShapeInfo> shapes() {
+  return all_shapes;
+}
+
+MeshData make_shape(std::string_view name, const ShapeOptions& options) {
+  const std::string& shape = info(name).name;
+  if (shape == "square") return make_square(options.vertices, options.seed);
+  if (shape == "disk") return make_disk(options.vertices, options.seed);
+  if (shape == "annulus") return make_annulus(options.vertices, options.seed);
+  if (shape == "channel") return make_channel(options.vertices);
+  if (shape == "airfoil") return make_airfoil(options.vertices);
+  return make_umbilic(options.k, options.vertices, options.seed);
+}
+
+}  // namespace kinemesh

@@ -1,0 +1,61 @@
+#include "motion/interior/fans.h"
+
+#include <numeric>
+
+#include "motion/interior/vertex_blocks.h"
+
+namespace kinemesh {
+namespace {
+
+int domain_face(const Mesh& mesh, int halfedge) {
+  const int face = mesh.face_of(halfedge);
+  return face == none || mesh.is_padding(face) ? none : face;
+}
+
+// Calls visit(neighbour, face to the left of the way there, or none) counter-clockwise around a vertex, for
+// all neighbours in a face of the domain.
+template <class Visit>
+void for_each_slot(const Mesh& mesh, int vertex, const Visit& visit) {
+  const int first = mesh.outgoing(vertex);
+  if (first == none) return;
+  int right = domain_face(mesh, Mesh::opposite(first));
+  int h = first;
+  do {
+    const int left = domain_face(mesh, h);
+    if (left != none || right != none) visit(mesh.to(h), left);
+    right = left;
+    h = Mesh::opposite(mesh.prev(h));
+  } while (h != first);
+}
+
+}  // namespace
+
+void Fans::reserve(const Mesh& mesh) {
+  start_.reserve(mesh.n_vertices() + 1);
+  neighbours_.reserve(2 * mesh.n_edges());
+  faces_.reserve(2 * mesh.n_edges());
+}
+
+void Fans::build(const Mesh& mesh, const std::vector<char>& has_row) {
+  const int n = mesh.n_vertices();
+  start_.assign(n + 1, 0);
+  parallel_blocks(n, [&](int, int begin, int end) {
+    for (int v = begin; v < end; ++v)
+      if (has_row[v]) for_each_slot(mesh, v, [&](int, int) { ++start_[v + 1]; });
+  });
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  neighbours_.resize(start_.back());
+  faces_.resize(start_.back());
+  parallel_blocks(n, [&](int, int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      if (!has_row[v]) continue;
+      int slot = start_[v];
+      for_each_slot(mesh, v, [&](int neighbour, int face) {
+        neighbours_[slot] = neighbour;
+        faces_[slot++] = face;
+      });
+    }
+  });
+}
+
+}  // namespace kinemesh

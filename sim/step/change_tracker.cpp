@@ -1,0 +1,186 @@
+#include "sim/step/change_tracker.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace kinemesh {
+namespace {
+
+// Disjoint sets of the numbers 0 to n - 1.
+class DisjointSets {
+ public:
+  explicit DisjointSets(int n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int i, int j) {  // the smaller root stays
+    const auto [low, high] = std::minmax({root(i), root(j)});
+    parent_[high] = low;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+// Calls visit(face) for those that the region has replaced.
+template <class Visit>
+void for_each_replaced(const RegionRecord& region, const Visit& visit) {
+  for (const int face : region.faces)
+    if (!std::binary_search(region.kept.begin(), region.kept.end(), face)) visit(face);
+}
+
+int first_replaced(const RegionRecord& region) {
+  int first = none;
+  for_each_replaced(region, [&](int face) { first = first == none ? face : first; });
+  return first;
+}
+
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// Sorts the faces and collects their corners.
+void finish(ChangedPatch& patch) {
+  std::sort(patch.faces.begin(), patch.faces.end(),
+            [](const FaceChange& a, const FaceChange& b) { return a.face < b.face; });
+  for (const auto& change : patch.faces) {
+    for (const Triangle& corners : {change.before, change.after})
+      std::copy_if(corners.begin(), corners.end(), std::back_inserter(patch.vertices),
+                   [](int v) { return v != none; });
+  }
+  sort_unique(patch.vertices);
+}
+
+}  // namespace
+
+ChangeTracker::ChangeTracker(const Mesh& mesh)
+    : faces_(mesh.n_faces()),
+      constraint_(mesh.n_edges()),
+      outgoing_(mesh.n_vertices()),
+      slot_(mesh.n_faces(), none),
+      is_flipped_(mesh.n_faces(), false),
+      one_{.faces = {0},
+           .triangles = {{}},
+           .labels = {0},
+           .halfedges = {{}},
+           .edges = {0, 0, 0},
+           .constraints = {0, 0, 0},
+           .outgoing = {3, Edge{}}} {
+  changed_.reserve(mesh.n_faces());
+  for (int face = 0; face < mesh.n_faces(); ++face) copy_face(mesh, face);
+}
+
+void ChangeTracker::copy_face(const Mesh& mesh, int face) noexcept {
+  const Triangle sides = mesh.sides(face);
+  faces_[face] = {mesh.triangles()[face], sides, mesh.label(face), mesh.user_face(face)};
+  for (const int side : sides) constraint_[Mesh::edge_of(side)] = mesh.constraint_of(Mesh::edge_of(side));
+  for (const int v : faces_[face].corners) outgoing_[v] = mesh.outgoing(v);
+}
+
+void ChangeTracker::note(std::span<const RegionRecord> regions, std::span<const int> flipped) noexcept {
+  forget();
+  for (const auto& region : regions) for_each_replaced(region, [&](int face) { note(face, false); });
+  for (const int face : flipped) note(face, true);
+}
+
+void ChangeTracker::note(int face, bool is_flipped) noexcept {
+  is_flipped_[face] = is_flipped;
+  if (slot_[face] != none) return;
+  slot_[face] = static_cast<int>(changed_.size());
+  changed_.push_back(face);
+}
+
+void ChangeTracker::forget() noexcept {
+  for (const int face : changed_) slot_[face] = none;
+  changed_.clear();
+}
+
+void ChangeTracker::accept(const Mesh& mesh) noexcept {
+  for (const int face : changed_) copy_face(mesh, face);
+  forget();
+}
+
+// Rewriting a face may move where the fans of its corners start: these are set each time, and so are right in
+// the end.
+void ChangeTracker::take_back(Mesh& mesh) noexcept {
+  for (const int face : changed_) {
+    const auto& old = faces_[face];
+    one_.faces[0] = face;
+    one_.triangles[0] = old.corners;
+    one_.labels[0] = old.label;
+    one_.halfedges[0] = old.sides;
+    for (int k = 0; k < 3; ++k) {
+      one_.edges[k] = Mesh::edge_of(old.sides[k]);
+      one_.constraints[k] = constraint_[one_.edges[k]];
+      one_.outgoing[k] = {old.corners[k], outgoing_[old.corners[k]]};
+    }
+    mesh.splice(one_);
+  }
+  forget();
+}
+
+std::vector<ChangedPatch> ChangeTracker::patches(const Mesh& mesh,
+                                                 std::span<const RegionRecord> regions) const {
+  const auto number = patch_numbers(mesh, regions);
+  const int count = number.empty() ? 0 : 1 + *std::max_element(number.begin(), number.end());
+  std::vector<ChangedPatch> all(count);
+  for (std::size_t i = 0; i < changed_.size(); ++i) {
+    const auto change = change_of(mesh, changed_[i]);
+    if (change.face != none) all[number[i]].faces.push_back(change);
+  }
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const int some = first_replaced(regions[r]);
+    if (some != none) all[number[slot_[some]]].regions.push_back(static_cast<int>(r));
+  }
+  std::erase_if(all, [](const ChangedPatch& patch) { return patch.faces.empty(); });
+  for (auto& patch : all) finish(patch);
+  std::sort(all.begin(), all.end(), [](const ChangedPatch& a, const ChangedPatch& b) {
+    return a.faces.front().face < b.faces.front().face;
+  });
+  return all;
+}
+
+// Of the faces in changed_. A region stays together. A flipped face belongs together with whatever changed
+// beside it: the faces that connected flips have rewritten cover one polygon, and so hang together across
+// their edges afterwards.
+std::vector<int> ChangeTracker::patch_numbers(const Mesh& mesh, std::span<const RegionRecord> regions) const {
+  DisjointSets sets(static_cast<int>(changed_.size()));
+  for (const auto& region : regions) {
+    const int some = first_replaced(region);
+    for_each_replaced(region, [&](int face) { sets.join(slot_[some], slot_[face]); });
+  }
+  for (const int face : changed_) {
+    if (!is_flipped_[face]) continue;
+    for (const int side : mesh.sides(face)) {
+      const int across = mesh.face_of(Mesh::opposite(side));
+      if (across != none && slot_[across] != none) sets.join(slot_[face], slot_[across]);
+    }
+  }
+  std::vector<int> numbers(changed_.size());
+  int count = 0;
+  for (int i = 0; i < static_cast<int>(numbers.size()); ++i) {
+    const int root = sets.root(i);  // the smallest of its set, and so numbered already
+    numbers[i] = root == i ? count++ : numbers[root];
+  }
+  return numbers;
+}
+
+// Without a number where the face is padding before and after.
+FaceChange ChangeTracker::change_of(const Mesh& mesh, int face) const {
+  const auto in_users = [&](const Triangle& t) {
+    return Triangle{mesh.user_vertex(t[0]), mesh.user_vertex(t[1]), mesh.user_vertex(t[2])};
+  };
+  const auto& old = faces_[face];
+  const int number = mesh.user_face(face);
+  return {.face = number != none ? number : old.user_face,
+          .before = in_users(old.corners),
+          .after = in_users(mesh.triangles()[face]),
+          .label_before = old.label,
+          .label_after = mesh.label(face)};
+}
+
+}  // namespace kinemesh

@@ -1,0 +1,131 @@
+#include "untangle/fill/doubled_edges.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "kinemesh/predicates.h"
+
+namespace kinemesh {
+namespace {
+
+Edge ordered(int a, int b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+class EdgeCount {
+ public:
+  EdgeCount(const Mesh& mesh, const FaceSets& sets, int set, NewFaces& faces)
+      : mesh_(mesh), sets_(sets), set_(set), faces_(faces) {
+    for (int t = 0; t < faces.size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const auto edge = ordered(corner(t, k), corner(t, k + 1));
+        if (faces.neighbours[t][k] < 0)
+          count_kept_edges(corner(t, k));
+        else if (t < faces.neighbours[t][k])
+          ++count_[edge];
+      }
+    }
+  }
+
+  // A flip takes a doubled edge away and adds one that is not; flips end.
+  int flip_doubled() {
+    int doubled = 0, flipped = 1;
+    while (flipped > 0) {
+      doubled = flipped = 0;
+      for (int t = 0; t < faces_.size(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+          if (faces_.neighbours[t][k] <= t || !is_doubled(t, k)) continue;  // once per inner edge
+          ++(flip(t, k) ? flipped : doubled);
+        }
+      }
+    }
+    return doubled;
+  }
+
+ private:
+  int corner(int t, int k) const { return faces_.triangles[t][k % 3]; }
+  bool is_doubled(int t, int k) const { return count(corner(t, k), corner(t, k + 1)) > 1; }
+  int count(int a, int b) const {
+    const auto found = count_.find(ordered(a, b));
+    return found == count_.end() ? 0 : found->second;
+  }
+
+  // Every vertex of the border starts one side of it, or several.
+  void count_kept_edges(int vertex) {
+    if (!seen_.insert(vertex).second) return;
+    const int first = mesh_.outgoing(vertex);
+    int h = first;
+    do {
+      const int left = mesh_.face_of(h), right = mesh_.face_of(Mesh::opposite(h));
+      const bool freed =
+          left != none && right != none && sets_.set_of(left) == set_ && sets_.set_of(right) == set_;
+      // Seen from both ends if both are on the border; counted from the lower one, and others cannot be
+      // doubled.
+      if (!freed && vertex < mesh_.to(h)) ++count_[{vertex, mesh_.to(h)}];
+      h = mesh_.next(Mesh::opposite(h));
+    } while (h != first);
+  }
+
+  bool flip(int t, int k) {
+    if (faces_.constraints[t][k] != none) return false;
+    const int u = faces_.neighbours[t][k];
+    const int j = side_back(t, k);
+    const int a = corner(t, k), b = corner(t, k + 1), c = corner(t, k + 2), d = corner(u, j + 2);
+    if (c == d || count(c, d) > 0) return false;
+    if (!is_upright(c, a, d) || !is_upright(d, b, c)) return false;
+    --count_[ordered(a, b)];
+    ++count_[ordered(c, d)];
+    const auto bc = take(t, k + 1), ca = take(t, k + 2), ad = take(u, j + 1), db = take(u, j + 2);
+    put(t, {c, a, d}, {ca, ad, {u, none}});
+    put(u, {d, b, c}, {db, bc, {t, none}});
+    return true;
+  }
+
+  struct Outside {
+    int neighbour, constraint;
+  };
+  Outside take(int t, int k) const { return {faces_.neighbours[t][k % 3], faces_.constraints[t][k % 3]}; }
+
+  void put(int t, const Triangle& corners, const std::array<Outside, 3>& outside) {
+    const int other = outside[2].neighbour;
+    for (int k = 0; k < 3; ++k) {
+      const int beyond = outside[k].neighbour;
+      faces_.neighbours[t][k] = beyond;
+      faces_.constraints[t][k] = outside[k].constraint;
+      if (k == 2 || beyond < 0) continue;
+      auto& back = faces_.neighbours[beyond];
+      for (int j = 0; j < 3; ++j) {
+        if (corner(beyond, j) == corners[(k + 1) % 3] && (back[j] == t || back[j] == other)) back[j] = t;
+      }
+    }
+    faces_.triangles[t] = corners;
+  }
+
+  int side_back(int t, int k) const {
+    const int u = faces_.neighbours[t][k];
+    int j = 0;
+    while (faces_.neighbours[u][j] != t || corner(u, j) != corner(t, k + 1)) ++j;
+    return j;
+  }
+
+  bool is_upright(int a, int b, int c) const {
+    return orientation(mesh_.position(a), mesh_.position(b), mesh_.position(c)) ==
+           Orientation::CounterClockwise;
+  }
+
+  const Mesh& mesh_;
+  const FaceSets& sets_;
+  int set_;
+  NewFaces& faces_;
+  std::map<Edge, int> count_;
+  std::set<int> seen_;
+};
+
+}  // namespace
+
+int avoid_doubled_edges(const Mesh& mesh, const FaceSets& sets, int set, NewFaces& faces) {
+  return EdgeCount(mesh, sets, set, faces).flip_doubled();
+}
+
+}  // namespace kinemesh

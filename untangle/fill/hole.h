@@ -1,0 +1,29 @@
+// What is there to fill where faces are taken out of a mesh.
+#pragma once
+
+#include <vector>
+
+#include "kinemesh/mesh.h"
+#include "untangle/walk/face_sets.h"
+
+namespace kinemesh {
+
+struct Hole {
+  // An edge of its border, along a half-edge of one of the faces; beyond it is another face, or none.
+  struct Side {
+    int halfedge, from, to;
+  };
+
+  std::vector<int> faces;    // that are taken out, ascending
+  std::vector<Side> border;  // in the order of the faces, from corner 0 of each on
+  std::vector<int> inner;    // edges between two of the faces, ascending
+  std::vector<int>
+      inner_constraints;  // half-edges 2e of those that are constrained, in the order of the faces
+
+  // Takes out the faces of a set, ascending. Reads no other face. Keeps its memory from one to the next.
+  void dig(const Mesh& mesh, const FaceSets& sets, int set);
+
+  int size() const { return static_cast<int>(faces.size()); }
+};
+
+}  // namespace kinemesh

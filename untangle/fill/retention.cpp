@@ -1,0 +1,124 @@
+#include "untangle/fill/retention.h"
+
+#include <algorithm>
+#include <boost/geometry/index/rtree.hpp>
+
+#include "core/base/box.h"
+#include "kinemesh/predicates.h"
+
+namespace kinemesh {
+namespace {
+
+namespace bgi = boost::geometry::index;
+
+class Choice {
+ public:
+  Choice(const Mesh& mesh, const std::vector<int>& faces) : mesh_(mesh), faces_(faces) {
+    index_vertices();
+    is_clear_.reserve(faces.size());
+    for (const int face : faces) is_clear_.push_back(is_clear(face));
+    find_components();
+  }
+
+  std::vector<int> kept() {
+    std::vector<int> all;
+    for (const auto& component : components_) {
+      for (const int face : component) {
+        if (overlaps_kept(face)) continue;
+        kept_index_.insert({box_of(mesh_.corners(face)), face});
+        all.push_back(face);
+      }
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+ private:
+  using Entry = std::pair<Box, int>;
+  using Index = bgi::rtree<Entry, bgi::linear<16>>;
+
+  void index_vertices() {
+    std::vector<int> vertices;
+    for (const int face : faces_) {
+      const auto& t = mesh_.triangles()[face];
+      vertices.insert(vertices.end(), t.begin(), t.end());
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::vector<Entry> entries;
+    for (const int v : vertices) entries.emplace_back(box_of(mesh_.position(v), mesh_.position(v)), v);
+    vertex_index_ = Index(entries);  // packed
+  }
+
+  bool is_clear(int face) const {
+    const auto p = mesh_.corners(face);
+    if (orientation(p[0], p[1], p[2]) != Orientation::CounterClockwise) return false;
+    const auto blocks = [&](const Entry& entry) {
+      const auto& t = mesh_.triangles()[face];
+      if (std::find(t.begin(), t.end(), entry.second) != t.end()) return false;
+      const Point& q = mesh_.position(entry.second);
+      return orientation(p[0], p[1], q) != Orientation::Clockwise &&
+             orientation(p[1], p[2], q) != Orientation::Clockwise &&
+             orientation(p[2], p[0], q) != Orientation::Clockwise;
+    };
+    const auto blocking = bgi::intersects(box_of(p)) && bgi::satisfies(blocks);
+    return vertex_index_.qbegin(blocking) == vertex_index_.qend();
+  }
+
+  // Of clear faces; the largest first, then by the smallest face.
+  void find_components() {
+    std::vector<bool> is_found(faces_.size(), false);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      if (is_clear_[i] && !is_found[i]) components_.push_back(component_of(i, is_found));
+    }
+    std::stable_sort(components_.begin(), components_.end(),
+                     [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  }
+
+  std::vector<int> component_of(std::size_t first, std::vector<bool>& is_found) const {
+    std::vector<int> component{faces_[first]};
+    is_found[first] = true;
+    for (std::size_t next = 0; next < component.size(); ++next) {
+      for (const int side : mesh_.sides(component[next])) {
+        const auto beyond =
+            std::lower_bound(faces_.begin(), faces_.end(), mesh_.face_of(Mesh::opposite(side)));
+        if (beyond == faces_.end() || *beyond != mesh_.face_of(Mesh::opposite(side))) continue;
+        const auto i = beyond - faces_.begin();
+        if (!is_clear_[i] || is_found[i]) continue;
+        is_found[i] = true;
+        component.push_back(*beyond);
+      }
+    }
+    return component;
+  }
+
+  bool overlaps_kept(int face) const {
+    const auto corners = mesh_.corners(face);
+    const auto overlaps = [&](const Entry& kept) {
+      return interiors_overlap(corners, mesh_.corners(kept.second));
+    };
+    const auto overlapping = bgi::intersects(box_of(corners)) && bgi::satisfies(overlaps);
+    return kept_index_.qbegin(overlapping) != kept_index_.qend();
+  }
+
+  const Mesh& mesh_;
+  const std::vector<int>& faces_;
+  Index vertex_index_, kept_index_;
+  std::vector<bool> is_clear_;  // beside faces_: upright, and no other vertex in the shadow
+  std::vector<std::vector<int>> components_;
+};
+
+}  // namespace
+
+bool Retention::run(const Mesh& mesh, const std::vector<int>& faces) {
+  kept_ = Choice(mesh, faces).kept();
+  if (kept_.empty()) return false;
+  rest_.reset(mesh.n_faces());
+  rest_.open();
+  for (const int face : faces) {
+    if (!std::binary_search(kept_.begin(), kept_.end(), face)) rest_.add(face, 0);
+  }
+  return true;
+}
+
+}  // namespace kinemesh

@@ -1,0 +1,135 @@
+#include "untangle/strategies/kinetic.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/base/stopwatch.h"
+#include "kinemesh/delaunay.h"
+#include "kinemesh/error.h"
+#include "untangle/fill/hole.h"
+#include "untangle/fill/records.h"
+#include "untangle/walk/detect.h"
+
+namespace kinemesh {
+namespace {
+
+constexpr int grain = 16;  // regions that are worth a task
+
+void require_before(const Mesh& mesh, std::span<const Point> before) {
+  if (static_cast<int>(before.size()) == mesh.n_vertices()) return;
+  throw InputError("strategy kinetic: " + std::to_string(before.size()) +
+                   " positions before the move, those of all " + std::to_string(mesh.n_vertices()) +
+                   " vertices expected; a step has them, a file alone has not");
+}
+
+// These faces as they are now, ready to be written again.
+Patch state_of(const Mesh& mesh, std::vector<int> faces) {
+  auto edges = edges_of(mesh, faces);
+  return mesh.inverse_of({.faces = std::move(faces),
+                          .triangles = {},
+                          .labels = {},
+                          .halfedges = {},
+                          .edges = std::move(edges),
+                          .constraints = {}});
+}
+
+}  // namespace
+
+RepairOutcome KineticUntangling::repair(Mesh& mesh, const RepairOptions& options) {
+  require_before(mesh, options.before);
+  RepairOutcome outcome;
+  auto& record = outcome.record;
+  const Stopwatch detecting;
+  const auto tangles = detect(mesh, options.minima, options.moved);
+  record.inverted = static_cast<int>(tangles.inverted.size());
+  record.degenerate = static_cast<int>(tangles.flat.size());
+  record.detect_ms = detecting.milliseconds();
+
+  const Stopwatch moving;
+  Undo undo(mesh);
+  KineticFlips flips(undo, options.before);
+  const bool is_upright = flips.run();
+  counts_ = flips.counts();
+  record.explore_ms = moving.milliseconds();
+
+  const Stopwatch replacing;
+  outcome.defect = replace_tangles(undo, is_upright ? Tangles{} : detect(mesh), options.allow_escaped);
+  record.triangulate_ms = replacing.milliseconds();
+  if (outcome.defect) return outcome;
+
+  // Regions are described as they were; what follows that takes no memory, and stays.
+  const Stopwatch describing;
+  record.escaped = count_escaped(mesh, options);
+  const auto rewritten = undo.rewritten_faces();
+  const Patch result = state_of(mesh, rewritten);
+  undo.take_back();
+  find_regions(mesh, rewritten);
+  describe_regions(mesh, record);
+  mesh.splice(result);
+  record.splice_ms = describing.milliseconds();
+  return outcome;
+}
+
+// As `global` does. Nothing has been spliced if there is no valid mesh.
+std::optional<Defect> KineticUntangling::replace_tangles(Undo& undo, const Tangles& tangles,
+                                                         bool allow_escaped) {
+  const RepairOptions options{.allow_escaped = allow_escaped};
+  walk_.run(undo.mesh(), tangles, replaced_.regions());
+  replaced_.start();
+  if (auto defect = replaced_.remesh_new(undo.mesh(), options)) return defect;
+  if (auto defect = replaced_.remesh_touching(undo.mesh(), options)) return defect;
+  for (int region = 0; region < replaced_.regions().count(); ++region)
+    undo.splice(replaced_.patch(region).patch);
+  return std::nullopt;
+}
+
+// In the connectivity before, connected across edges. What has been flipped or replaced together hangs
+// together: flips and replacements only divide the polygon of their faces anew.
+void KineticUntangling::find_regions(const Mesh& mesh, std::span<const int> rewritten) {
+  regions_.reset(mesh.n_faces());
+  is_rewritten_.assign(mesh.n_faces(), false);
+  for (const int face : rewritten) is_rewritten_[face] = true;
+  std::vector<int> pending;
+  const auto take = [&](int face, int region) {
+    if (face == none || !is_rewritten_[face] || regions_.set_of(face) != none) return;
+    regions_.add(face, region);
+    pending.push_back(face);
+  };
+  for (const int first : rewritten) {
+    if (regions_.set_of(first) != none) continue;
+    const int region = regions_.open();
+    take(first, region);
+    while (!pending.empty()) {
+      const int face = pending.back();
+      pending.pop_back();
+      for (const int side : mesh.sides(face)) take(mesh.face_of(Mesh::opposite(side)), region);
+    }
+    regions_.sort(region);
+  }
+}
+
+void KineticUntangling::describe_regions(const Mesh& mesh, RepairRecord& record) {
+  auto& records = record.regions;
+  records.resize(regions_.count());
+  parallel_parts(regions_.count(), grain, [&](int, int begin, int end) {
+    Hole hole;
+    for (int region = begin; region < end; ++region) {
+      hole.dig(mesh, regions_, region);
+      records[region] = describe_region(mesh, hole);
+    }
+  });
+  for (int region = 0; region < replaced_.regions().count(); ++region) {
+    const auto& [patch, replaced] = replaced_.patch(region);
+    if (patch.faces.empty()) continue;  // absorbed
+    auto& around = records[regions_.set_of(patch.faces.front())];
+    around.fallback = true;
+    around.retries += replaced.retries;
+  }
+  std::sort(records.begin(), records.end(), is_seeded_before);
+  for (const auto& region : records) record.components += region.components;
+  record.replaced = record.region_faces();
+}
+
+}  // namespace kinemesh

@@ -1,0 +1,219 @@
+#include "untangle/strategies/kinetic_flips.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/base/parallel.h"
+#include "core/sweep/face_sweep.h"
+#include "untangle/walk/detect.h"
+
+namespace kinemesh {
+namespace {
+
+constexpr int grain = 1 << 14;  // faces that are worth a task
+
+bool may_collapse(const Triangle& t, const Point* x0, const Point* x1) {
+  const auto [a, b, c] = t;
+  if (x0[a] == x1[a] && x0[b] == x1[b] && x0[c] == x1[c]) return false;
+  return !is_surely_positive(rounded_product(x0[b] - x0[a], x1[b] - x1[a], x0[c] - x0[a], x1[c] - x1[a]));
+}
+
+// Ascending.
+std::vector<int> faces_that_may_collapse(const Mesh& mesh, std::span<const Point> before) {
+  const auto triangles = mesh.triangles();
+  std::vector<std::vector<int>> found(n_parts(mesh.n_faces(), grain));
+  parallel_parts(mesh.n_faces(), grain, [&](int part, int begin, int end) {
+    for (int f = begin; f < end; ++f) {
+      fetch_ahead(triangles, before, f);
+      fetch_ahead(triangles, mesh.positions(), f);
+      if (may_collapse(triangles[f], before.data(), mesh.positions().data())) found[part].push_back(f);
+    }
+  });
+  std::vector<int> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+// Around an edge: from a to b, c to the left and d to the right.
+struct Quadrilateral {
+  int a, b, c, d;
+};
+
+Quadrilateral around(const Mesh& mesh, int edge) {
+  const int h = 2 * edge, o = Mesh::opposite(h);
+  return {mesh.from(h), mesh.to(h), mesh.to(mesh.next(h)), mesh.to(mesh.next(o))};
+}
+
+Edge sorted(int a, int b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+// While something is tangled an edge may be there already. Looks around both in turn, so that one with many
+// neighbours costs no more than the other.
+bool are_joined(const Mesh& mesh, int c, int d) {
+  const int first_c = mesh.outgoing(c), first_d = mesh.outgoing(d);
+  int h = first_c, g = first_d;
+  do {
+    if (mesh.to(h) == d || mesh.to(g) == c) return true;
+    h = Mesh::opposite(mesh.prev(h));
+    g = Mesh::opposite(mesh.prev(g));
+  } while (h != first_c && g != first_d);
+  return false;
+}
+
+bool can_be_flipped(const Mesh& mesh, int edge) {
+  if (!mesh.is_flippable(edge)) return false;
+  const auto q = around(mesh, edge);
+  return q.c != q.d && !are_joined(mesh, q.c, q.d);
+}
+
+}  // namespace
+
+bool KineticFlips::Later::operator()(const Event& e, const Event& f) const {
+  const int order = compare(e.when, f.when);
+  return order != 0 ? order > 0 : e.face > f.face;
+}
+
+KineticFlips::KineticFlips(Undo& undo, std::span<const Point> before)
+    : undo_(undo), mesh_(undo.mesh()), before_(before) {}
+
+bool KineticFlips::run() {
+  follow();
+  return finish();
+}
+
+void KineticFlips::follow() {
+  for (const int face : faces_that_may_collapse(mesh_, before_)) schedule(face, nullptr);
+  while (!events_.empty()) {
+    const Event event = events_.top();
+    events_.pop();
+    if (mesh_.triangles()[event.face] == event.corners) handle(event);
+  }
+}
+
+bool KineticFlips::finish() {
+  const auto tangles = detect(mesh_);
+  if (tangles.empty()) return true;
+  start_instant(CollapseTime::end());
+  is_at_end_ = true;
+  doubtful_ = tangles.flat;
+  doubtful_.insert(doubtful_.end(), tangles.inverted.begin(), tangles.inverted.end());
+  settle();
+  return false;
+}
+
+void KineticFlips::handle(const Event& event) {
+  ++counts_.events;
+  if (compare(event.when, now_) != 0) start_instant(event.when);
+  if (!improve(event.face)) ++counts_.stuck;
+  settle();
+}
+
+void KineticFlips::start_instant(const CollapseTime& time) {
+  now_ = time;
+  gone_.clear();
+}
+
+void KineticFlips::schedule(int face, const CollapseTime* from) {
+  const auto& corners = mesh_.triangles()[face];
+  if (auto time = area(corners).collapse_after(from)) events_.push({std::move(*time), face, corners});
+}
+
+// Faces that are in need of a flip, until there is none that helps.
+void KineticFlips::settle() {
+  while (!doubtful_.empty()) {
+    const int face = doubtful_.back();
+    doubtful_.pop_back();
+    if (!is_upright(mesh_.triangles()[face])) improve(face);
+  }
+}
+
+bool KineticFlips::improve(int face) {
+  for (const int side : mesh_.sides(face)) {
+    if (!leaves_upright_faces(Mesh::edge_of(side))) continue;
+    flip(Mesh::edge_of(side));
+    return true;
+  }
+  return flip_on_line(face) || flip_beside_meeting(face);
+}
+
+bool KineticFlips::leaves_upright_faces(int edge) const {
+  if (!mesh_.is_flippable(edge)) return false;
+  const auto [a, b, c, d] = around(mesh_, edge);
+  return is_upright({d, b, c}) && is_upright({c, a, d}) && can_be_flipped(mesh_, edge);
+}
+
+bool KineticFlips::flip_on_line(int face) {
+  const Triangle corners = mesh_.triangles()[face];
+  if (!is_flat(corners)) return false;
+  const int inner = inner_corner(corners);
+  if (inner == none) return false;
+  const int longest = Mesh::edge_of(mesh_.sides(face)[(inner + 1) % 3]);
+  if (!can_be_flipped(mesh_, longest)) return false;
+  const auto [a, b, c, d] = around(mesh_, longest);
+  if (!is_flat({a, b, c}) || !is_flat({b, a, d}) || !gone_.insert(sorted(a, b)).second) return false;
+  flip(longest);
+  return true;
+}
+
+// Of a face whose corners u and v have met: turns one of them around the other by one edge, so that the face
+// between them is another one.
+bool KineticFlips::flip_beside_meeting(int face) {
+  const Triangle corners = mesh_.triangles()[face], sides = mesh_.sides(face);
+  for (int k = 0; k < 3; ++k) {
+    const int u = corners[k], v = corners[(k + 1) % 3];
+    if (!have_met(u, v)) continue;
+    for (const int side : {sides[(k + 1) % 3], sides[(k + 2) % 3]}) {
+      const int edge = Mesh::edge_of(side);
+      if (!can_be_flipped(mesh_, edge)) continue;
+      const auto [a, b, c, d] = around(mesh_, edge);
+      const bool starts_there = a == u || a == v;
+      if (!is_upright(starts_there ? Triangle{d, b, c} : Triangle{c, a, d})) continue;
+      if (!gone_.insert(sorted(a, b)).second) continue;
+      flip(edge);
+      return true;
+    }
+  }
+  return false;
+}
+
+void KineticFlips::flip(int edge) {
+  undo_.flip(edge);
+  ++counts_.flips;
+  for (const int face : {mesh_.face_of(2 * edge), mesh_.face_of(2 * edge + 1)}) {
+    if (!is_at_end_) schedule(face, &now_);
+    doubtful_.push_back(face);
+    for (const int side : mesh_.sides(face)) {
+      const int across = mesh_.face_of(Mesh::opposite(side));
+      if (across != none) doubtful_.push_back(across);
+    }
+  }
+}
+
+KineticQuadratic KineticFlips::area(const Triangle& corners) const {
+  return KineticQuadratic::area(moving(corners[0]), moving(corners[1]), moving(corners[2]));
+}
+
+bool KineticFlips::is_upright(const Triangle& corners) const {
+  const auto a = area(corners);
+  return (is_at_end_ ? a.sign_at(now_) : a.sign_after(now_)) > 0;
+}
+
+bool KineticFlips::is_flat(const Triangle& corners) const {
+  return area(corners).sign_at(now_) == 0;
+}
+
+bool KineticFlips::have_met(int u, int v) const {
+  return KineticQuadratic::dot(moving(u), moving(v), moving(v)).sign_at(now_) == 0;
+}
+
+// Which of three corners on a line lies between the others; none if two are at one place.
+int KineticFlips::inner_corner(const Triangle& t) const {
+  for (int k = 0; k < 3; ++k) {
+    const auto dot = KineticQuadratic::dot(moving(t[k]), moving(t[(k + 1) % 3]), moving(t[(k + 2) % 3]));
+    if (dot.sign_at(now_) < 0) return k;
+  }
+  return none;
+}
+
+}  // namespace kinemesh
