@@ -1,16 +1,21 @@
-// Bounding boxes for the spatial indices.
+// Bounding boxes, borders included.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
+#include <limits>
 
 #include "kinemesh/types.h"
 
 namespace kinemesh {
 
-using Box = boost::geometry::model::box<boost::geometry::model::d2::point_xy<double>>;
+struct Box {
+  Point low, high;
+};
+
+// Of nothing: hull_of(nowhere, box) is the box.
+inline constexpr double infinitely_far = std::numeric_limits<double>::infinity();
+inline constexpr Box nowhere{{infinitely_far, infinitely_far}, {-infinitely_far, -infinitely_far}};
 
 inline Box box_of(const Point& a, const Point& b) {
   return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
@@ -22,20 +27,22 @@ inline Box box_of(const std::array<Point, 3>& t) {
 }
 
 inline Box hull_of(const Box& a, const Box& b) {
-  const auto &p = a.min_corner(), &q = b.min_corner(), &r = a.max_corner(), &s = b.max_corner();
-  return {{std::min(p.x(), q.x()), std::min(p.y(), q.y())}, {std::max(r.x(), s.x()), std::max(r.y(), s.y())}};
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
 
-// Borders included.
+inline Box hull_of(const Box& a, const Point& p) {
+  return hull_of(a, Box{p, p});
+}
+
 inline bool meet(const Box& a, const Box& b) {
-  const auto &p = a.min_corner(), &q = b.min_corner(), &r = a.max_corner(), &s = b.max_corner();
-  return p.x() <= s.x() && q.x() <= r.x() && p.y() <= s.y() && q.y() <= r.y();
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
 // Pre: the boxes meet.
 inline Box common(const Box& a, const Box& b) {
-  const auto &p = a.min_corner(), &q = b.min_corner(), &r = a.max_corner(), &s = b.max_corner();
-  return {{std::max(p.x(), q.x()), std::max(p.y(), q.y())}, {std::min(r.x(), s.x()), std::min(r.y(), s.y())}};
+  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
+          {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
 }
 
 }  // namespace kinemesh

@@ -1,26 +1,13 @@
 // The search for what touches, run only when a triangulation has failed and the culprits are wanted by name.
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <map>
 #include <tuple>
 
+#include "core/base/box_index.h"
 #include "core/cdt/triangulator.h"
 #include "kinemesh/predicates.h"
 
 namespace kinemesh {
 namespace {
-
-namespace bg = boost::geometry;
-using BoxPoint = bg::model::d2::point_xy<double>;
-using Box = bg::model::box<BoxPoint>;
-using Entry = std::pair<Box, int>;
-using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
-
-Box box_of(const Point& a, const Point& b) {
-  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
-}
 
 // Where two segments that touch do so; rounded.
 Point meeting_point(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -42,10 +29,10 @@ std::optional<Contact> coincident_points(std::span<const Point> points) {
 class EdgeIndex {
  public:
   EdgeIndex(std::span<const Point> points, std::span<const Edge> edges) : points_(points), edges_(edges) {
-    std::vector<Entry> entries;
+    std::vector<NumberedBox> entries;
     entries.reserve(edges.size());
     for (int i = 0; i < static_cast<int>(edges.size()); ++i) entries.emplace_back(box(i), i);
-    tree_ = Tree(entries);
+    tree_ = BoxIndex(entries);
   }
 
   std::optional<Contact> crossing_edges() const {
@@ -85,15 +72,15 @@ class EdgeIndex {
   template <class Accept>
   int smallest(const Box& around, const Accept& accept) const {
     int best = none;
-    for (auto it = tree_.qbegin(bg::index::intersects(around)); it != tree_.qend(); ++it) {
-      if ((best == none || it->second < best) && accept(it->second)) best = it->second;
-    }
+    for_each_near(tree_, around, [&](int i) {
+      if ((best == none || i < best) && accept(i)) best = i;
+    });
     return best;
   }
 
   std::span<const Point> points_;
   std::span<const Edge> edges_;
-  Tree tree_;
+  BoxIndex tree_;
 };
 
 }  // namespace

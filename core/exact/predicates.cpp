@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/box.h"
+
 namespace kinemesh {
 namespace {
 
@@ -29,27 +31,10 @@ bool same_side(Orientation p, Orientation q) {
   return p == q && p != Orientation::Collinear;
 }
 
-struct Box {
-  double x0, y0, x1, y1;
-};
-
-Box box(const Point& a, const Point& b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)};
-}
-
-Box box(const std::array<Point, 3>& t) {
-  const Box b = box(t[0], t[1]);
-  return {std::min(b.x0, t[2].x), std::min(b.y0, t[2].y), std::max(b.x1, t[2].x), std::max(b.y1, t[2].y)};
-}
-
-bool disjoint(const Box& a, const Box& b) {
-  return a.x1 < b.x0 || b.x1 < a.x0 || a.y1 < b.y0 || b.y1 < a.y0;
-}
-
 // Closed segments, no vertex shared. On a common line the boxes overlap just when the segments do, so that
 // the four signs are the whole test in every degenerate case, zero length included.
 bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return !disjoint(box(a, b), box(c, d)) && !same_side(orientation(a, b, c), orientation(a, b, d)) &&
+  return meet(box_of(a, b), box_of(c, d)) && !same_side(orientation(a, b, c), orientation(a, b, d)) &&
          !same_side(orientation(c, d, a), orientation(c, d, b));
 }
 
@@ -81,7 +66,7 @@ bool beyond_a_side(const Point& a, const Point& b, const std::array<Point, 3>& t
 // No vertex shared. Disjoint convex polygons are separated by a line along a side of one of them; a segment
 // has one.
 bool meets(const Segment& s, const std::array<Point, 3>& t) {
-  if (disjoint(box(s.a, s.b), box(t))) return false;
+  if (!meet(box_of(s.a, s.b), box_of(t))) return false;
   const Orientation first = orientation(s.a, s.b, t[0]);
   if (same_side(first, orientation(s.a, s.b, t[1])) && same_side(first, orientation(s.a, s.b, t[2])))
     return false;
@@ -146,7 +131,7 @@ bool segments_cross(const Point& a, const Point& b, const Point& c, const Point&
 }
 
 bool on_segment(const Point& p, const Point& a, const Point& b) {
-  return !disjoint(box(p, p), box(a, b)) && orientation(a, b, p) == Orientation::Collinear;
+  return meet(box_of(p, p), box_of(a, b)) && orientation(a, b, p) == Orientation::Collinear;
 }
 
 bool strictly_inside(const Point& p, const std::array<Point, 3>& t) {
@@ -163,14 +148,14 @@ bool touches(const Segment& s, const Corners& t) {
 }
 
 bool interiors_overlap(const std::array<Point, 3>& s, const std::array<Point, 3>& t) {
-  if (disjoint(box(s), box(t))) return false;
+  if (!meet(box_of(s), box_of(t))) return false;
   const Orientation os = turn(s), ot = turn(t);
   if (os == Orientation::Collinear || ot == Orientation::Collinear) return false;
   return !separates(s, os, t, true) && !separates(t, ot, s, true);
 }
 
 bool touches(const Corners& s, const Corners& t) {
-  if (disjoint(box(s.p), box(t.p))) return false;
+  if (!meet(box_of(s.p), box_of(t.p))) return false;
   return a_side_touches(s, t) || a_side_touches(t, s);
 }
 

@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "core/base/parallel.h"
+#include "core/mesh/curve.h"
 #include "core/mesh/frame.h"
 #include "core/mesh/padding.h"
 #include "core/mesh/sides.h"
@@ -39,6 +40,7 @@ class MeshBuilder {
   void check_input() const;
   bool is_proper(int face) const;
   [[noreturn]] void refuse_face(int face) const;
+  std::vector<int> order_on_curve(std::span<const Point> points) const;
   std::array<Point, 4> frame_corners() const;
   void place_vertices();
   void place_faces();
@@ -137,6 +139,18 @@ std::array<Point, 4> MeshBuilder::frame_corners() const {
   return corners;
 }
 
+// The square that it fills is that of the domain; vertices in no face need not be near.
+std::vector<int> MeshBuilder::order_on_curve(std::span<const Point> points) const {
+  std::array<Box, most_parts> boxes;
+  boxes.fill(nowhere);
+  parallel_parts(data_.n_faces(), grain, [&](int part, int begin, int end) {
+    for (int f = begin; f < end; ++f)
+      for (const int v : data_.triangles[f]) boxes[part] = hull_of(boxes[part], data_.points[v]);
+  });
+  return order_along_curve(points, std::accumulate(boxes.begin(), boxes.end(), nowhere,
+                                                   [](const Box& a, const Box& b) { return hull_of(a, b); }));
+}
+
 // The user's vertices and the corners of the frame, along the curve.
 void MeshBuilder::place_vertices() {
   std::vector<Point> framed;
@@ -146,7 +160,7 @@ void MeshBuilder::place_vertices() {
     framed.insert(framed.end(), corners.begin(), corners.end());
   }
   const std::span<const Point> points = framed.empty() ? data_.points : framed;
-  const auto order = hilbert_order(points);
+  const auto order = order_on_curve(points);
   const int n = static_cast<int>(points.size());
   mesh_.n_user_vertices_ = data_.n_vertices();
   mesh_.frame_margin_ = options_.frame;

@@ -2,26 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/base/box.h"
 #include "kinemesh/predicates.h"
 
 namespace kinemesh {
 namespace {
 
-struct Box {
-  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Point high = -low;
-
-  void add(const Point& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  double diagonal() const { return std::hypot(high.x - low.x, high.y - low.y); }
-};
+double diagonal(const Box& box) {
+  return std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
+}
 
 std::array<Point, 4> rectangle(const Box& box, double margin) {
-  const double d = margin * box.diagonal();
+  const double d = margin * diagonal(box);
   return {Point{box.low.x - d, box.low.y - d}, Point{box.high.x + d, box.low.y - d},
           Point{box.high.x + d, box.high.y + d}, Point{box.low.x - d, box.high.y + d}};
 }
@@ -36,9 +29,9 @@ bool is_corner(const Mesh& mesh, std::size_t i) {
 
 // A valid domain is inside its border.
 Box domain_box(const Mesh& mesh) {
-  Box box;
+  Box box = nowhere;
   for (const auto& constraint : mesh.constraints()) {
-    if (constraint.is_border()) box.add(mesh.position(constraint.from));
+    if (constraint.is_border()) box = hull_of(box, mesh.position(constraint.from));
   }
   return box;
 }
@@ -46,12 +39,12 @@ Box domain_box(const Mesh& mesh) {
 // A step that is longer than the frame is deep takes the frame with it. Places that are not finite, which nothing
 // reaches, are left to who looks for them.
 void enlarge(const Mesh& mesh, std::span<Point> next) {
-  Box box;
+  Box box = nowhere;
   for (const auto& constraint : mesh.constraints())
-    if (constraint.is_border()) box.add(next[constraint.from]);
+    if (constraint.is_border()) box = hull_of(box, next[constraint.from]);
   const Point low = next[mesh.frame()[0]], high = next[mesh.frame()[2]];
   const bool is_inside = low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y;
-  if (is_inside || !std::isfinite(box.diagonal())) return;
+  if (is_inside || !std::isfinite(diagonal(box))) return;
   const auto fresh = rectangle(box, mesh.frame_margin());
   for (int i = 0; i < 4; ++i) next[mesh.frame()[i]] = fresh[i];
 }
@@ -59,8 +52,8 @@ void enlarge(const Mesh& mesh, std::span<Point> next) {
 }  // namespace
 
 std::array<Point, 4> frame_around(std::span<const Point> points, double margin) {
-  Box box;
-  for (const auto& p : points) box.add(p);
+  Box box = nowhere;
+  for (const auto& p : points) box = hull_of(box, p);
   return rectangle(box, margin);
 }
 
@@ -69,7 +62,7 @@ void follow(const Mesh& mesh, std::span<Point> next) {
   const auto box = domain_box(mesh);
   const Point low = mesh.position(mesh.frame()[0]), high = mesh.position(mesh.frame()[2]);
   const auto gaps = {box.low.x - low.x, box.low.y - low.y, high.x - box.high.x, high.y - box.high.y};
-  const double margin = mesh.frame_margin() * box.diagonal();
+  const double margin = mesh.frame_margin() * diagonal(box);
   const bool stays = std::min(gaps) >= 0.5 * margin && std::max(gaps) <= 2.0 * margin;
   const auto fresh = rectangle(box, mesh.frame_margin());
   for (int i = 0; i < 4; ++i) {

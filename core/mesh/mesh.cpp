@@ -56,11 +56,19 @@ void Mesh::splice(const Patch& patch) noexcept {
 }
 
 void Mesh::flip(int edge) noexcept {
-  const int h = 2 * edge, o = opposite(h), left = face_of(h), right = face_of(o);
+  const bool is_lower = face_of(2 * edge) < face_of(2 * edge + 1);
+  const int h = is_lower ? 2 * edge : 2 * edge + 1, o = opposite(h), left = face_of(h), right = face_of(o);
   const int bc = next(h), ca = prev(h), ad = next(o), db = prev(o);
   const int a = to(ca), b = to(db), c = to(bc), d = to(ad);
-  rewrite(left, {d, b, c}, {db, bc, h});
-  rewrite(right, {c, a, d}, {ca, ad, o});
+  rewrite_from_lowest(left, {d, b, c}, {db, bc, h});
+  rewrite_from_lowest(right, {c, a, d}, {ca, ad, o});
+}
+
+void Mesh::rewrite_from_lowest(int face, Triangle corners, Triangle sides) noexcept {
+  const auto lowest = std::min_element(corners.begin(), corners.end()) - corners.begin();
+  std::rotate(corners.begin(), corners.begin() + lowest, corners.end());
+  std::rotate(sides.begin(), sides.begin() + lowest, sides.end());
+  rewrite(face, corners, sides);
 }
 
 void Mesh::rewrite(int face, const Triangle& corners, const Triangle& sides) noexcept {

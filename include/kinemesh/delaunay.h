@@ -40,32 +40,36 @@ class DelaunayFlipping {
   // From all edges. Without a defect the mesh is valid in the end.
   [[nodiscard]] FlipOutcome run(Mesh& mesh, const RepairOptions& options = {});
 
-  // From these edges; edges_of the faces that are new or have a moved corner are all that can have changed.
+  // From these sides' edges; sides_of the faces that are new or have a moved corner are all that can have changed.
   // Cost: their number, four visits a flip, and the repairs. Tangles that no flip meets stay. Throws
-  // InputError for an edge that does not exist.
-  [[nodiscard]] FlipOutcome run(Mesh& mesh, std::span<const int> edges, const RepairOptions& options = {});
+  // InputError for a side that does not exist.
+  [[nodiscard]] FlipOutcome run(Mesh& mesh, std::span<const int> sides, const RepairOptions& options = {});
 
   // Those that the flips of the last run have rewritten, each once, in no order.
   std::span<const int> flipped_faces() const { return flipped_faces_; }
 
  private:
   void reset(const Mesh& mesh);
-  void push(int edge);
+  void push(int side);
   int pop();
   FlipOutcome run_pending(Mesh& mesh, const RepairOptions& options);
-  void visit(Mesh& mesh, int edge, const RepairOptions& options, FlipOutcome& outcome);
+  void visit(Mesh& mesh, int side, const RepairOptions& options, FlipOutcome& outcome);
   void untangle(Mesh& mesh, int face, const RepairOptions& options, FlipOutcome& outcome);
   void flip(Mesh& mesh, int edge);
   void note_flipped(int face);
 
-  std::vector<int> pending_;      // a stack: what was touched last is still in the cache
-  std::vector<char> is_pending_;  // per edge
+  std::vector<int> pending_;      // sides, a stack: what was touched last is still in the cache
+  std::vector<char> is_pending_;  // per side
   std::vector<int> flipped_faces_;
   std::vector<char> is_flipped_;  // per face
   LocalUntangling untangler_;
 };
 
-// The sides of these faces, ascending.
+// Each edge of these faces once, by its side in the lower of its faces; ascending. Side 4 f + k is that of face f from
+// corner k to corner k + 1.
+std::vector<int> sides_of(const Mesh& mesh, std::span<const int> faces);
+
+// The edges of these faces, ascending.
 std::vector<int> edges_of(const Mesh& mesh, std::span<const int> faces);
 
 }  // namespace kinemesh

@@ -1,14 +1,10 @@
 // Local untangling: the minimum region around a seed, and nothing beyond it.
 #pragma once
 
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "kinemesh/strategy.h"
-#include "untangle/explore/local_exploration.h"
-#include "untangle/fill/region_mesher.h"
-#include "untangle/fill/region_repair.h"
-#include "untangle/fill/retention.h"
 
 namespace kinemesh {
 
@@ -18,6 +14,11 @@ namespace kinemesh {
 // seed, and where the labels of a region do not fit together before tangles in its holes are gone.
 class LocalUntangling : public Strategy {
  public:
+  LocalUntangling();
+  ~LocalUntangling() override;
+  LocalUntangling(LocalUntangling&&) noexcept;
+  LocalUntangling& operator=(LocalUntangling&&) noexcept;
+
   std::string_view name() const override { return "local"; }
 
   // All tangles in turn, by the smallest of the user's face numbers, those of padding last.
@@ -30,30 +31,8 @@ class LocalUntangling : public Strategy {
                                            const RepairOptions& options);
 
  private:
-  struct Region {
-    RegionRecord record;
-    Patch patch;
-    int doubled_edges = 0;
-    std::optional<Defect> defect;
-  };
-
-  Region untangle(const Mesh& mesh, int seed, const RepairOptions& options, RepairRecord& times);
-  std::optional<Region> minimum_region(const Mesh& mesh, int seed, const RepairOptions& options,
-                                       RepairRecord& times);
-  Region piece_of_global_walk(const Mesh& mesh, int seed, const RepairOptions& options, RepairRecord& times);
-  bool remesh(const Mesh& mesh, const LocalExploration& exploration, const RepairOptions& options,
-              Region& region);
-  bool remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region);
-  void finish_region(const Mesh& mesh, const FaceSets& sets, const Hole& hole, const RepairOptions& options,
-                     NewFaces faces, Region& region);
-
-  FaceSets sets_;  // the region at hand
-  Hole hole_, rest_;
-  RegionMesher mesher_;
-  Finisher finisher_;
-  Retention retention_;
-  RegionRepair pieces_;  // of the global walk of this repair, once one was needed
-  bool has_walked_ = false;
+  class Worker;
+  std::unique_ptr<Worker> worker_;
 };
 
 }  // namespace kinemesh

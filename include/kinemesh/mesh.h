@@ -127,9 +127,9 @@ class Mesh {
     return edge_constraint_[edge] == none && face_of(2 * edge) != none && face_of(2 * edge + 1) != none;
   }
 
-  // Turns an edge between two faces into their other diagonal, re-using its handle and theirs. Half-edge 2 *
-  // edge goes from c to d then, with face dbc to its left. Nothing else changes. Pre: is_flippable(edge), c
-  // != d.
+  // Turns an edge between two faces into their other diagonal, re-using its handle and theirs. The half-edge along
+  // the lower face, here abc, goes from c to d then, with face dbc to its left. Both faces start at their lowest
+  // corner. Nothing else changes. Pre: is_flippable(edge), c != d.
   //      c             c
   //    /   \         / | \       .
   //   a --> b  ->   a  |  b
@@ -141,6 +141,7 @@ class Mesh {
   friend class MeshBuilder;
 
   void rewrite(int face, const Triangle& corners, const Triangle& sides) noexcept;
+  void rewrite_from_lowest(int face, Triangle corners, Triangle sides) noexcept;
 
   Connectivity topology_;
   std::vector<Point> positions_;

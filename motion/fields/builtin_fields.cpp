@@ -39,7 +39,7 @@ ParameterInfo seed() {
   return {"seed", Kind::Seed, "of the random numbers", std::int64_t{1}};
 }
 
-Box box(const Parameters& p) {
+VortexBox box(const Parameters& p) {
   return {p.point("center"), p.point("size")};
 }
 double radians(double degrees) {

@@ -8,7 +8,7 @@
 
 namespace kinemesh {
 
-struct Box {
+struct VortexBox {
   Point center{0.5, 0.5};
   Point size{1.0, 1.0};  // width and height, > 0
 
@@ -21,12 +21,12 @@ struct Box {
 // T.
 class Swirl final : public VelocityField {
  public:
-  Swirl(const Box& box, double period) : box_(box), period_(period) {}  // period T > 0
+  Swirl(const VortexBox& box, double period) : box_(box), period_(period) {}  // period T > 0
   std::string_view name() const override { return "swirl"; }
   Point velocity(const Point& x, double t) const override;
 
  private:
-  Box box_;
+  VortexBox box_;
   double period_;
 };
 
@@ -34,24 +34,24 @@ class Swirl final : public VelocityField {
 // 1937, §2]. Free of divergence, steady; tangential on the box's border, and periodic beyond it.
 class TaylorGreen final : public VelocityField {
  public:
-  explicit TaylorGreen(const Box& box) : box_(box) {}
+  explicit TaylorGreen(const VortexBox& box) : box_(box) {}
   std::string_view name() const override { return "taylor-green"; }
   Point velocity(const Point& x, double t) const override;
 
  private:
-  Box box_;
+  VortexBox box_;
 };
 
 // Gresho's vortex, counter-clockwise about the centre: speed 5r for r <= 0.2, 2 - 5r for r <= 0.4, 0 beyond
 // [Gresho 1990]. Free of divergence, steady, with kinks in the speed.
 class Gresho final : public VelocityField {
  public:
-  explicit Gresho(const Box& box) : box_(box) {}
+  explicit Gresho(const VortexBox& box) : box_(box) {}
   std::string_view name() const override { return "gresho"; }
   Point velocity(const Point& x, double t) const override;
 
  private:
-  Box box_;
+  VortexBox box_;
 };
 
 // Twisting rotation: v = rate d cos(pi t/T) (-Y, X) half box sizes, d = [(1 - X^2)(1 - Y^2)]^2, where X, Y
@@ -59,12 +59,12 @@ class Gresho final : public VelocityField {
 // and all is back at t = T.
 class Twist final : public VelocityField {
  public:
-  Twist(const Box& box, double rate, double period) : box_(box), rate_(rate), period_(period) {}
+  Twist(const VortexBox& box, double rate, double period) : box_(box), rate_(rate), period_(period) {}
   std::string_view name() const override { return "twist"; }
   Point velocity(const Point& x, double t) const override;
 
  private:
-  Box box_;
+  VortexBox box_;
   double rate_;    // radians per time, at the centre and t = 0
   double period_;  // T > 0
 };

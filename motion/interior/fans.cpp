@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "core/mesh/around.h"
 #include "motion/interior/vertex_blocks.h"
 
 namespace kinemesh {
@@ -16,8 +17,8 @@ int domain_face(const Mesh& mesh, int halfedge) {
 // all neighbours in a face of the domain.
 template <class Visit>
 void for_each_slot(const Mesh& mesh, int vertex, const Visit& visit) {
-  const int first = mesh.outgoing(vertex);
-  if (first == none) return;
+  if (mesh.is_isolated(vertex)) return;
+  const int first = start_of_fan(mesh, vertex);
   int right = domain_face(mesh, Mesh::opposite(first));
   int h = first;
   do {

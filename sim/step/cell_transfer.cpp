@@ -2,23 +2,21 @@
 
 #include <algorithm>
 #include <boost/geometry/algorithms/distance.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <boost/geometry/strategies/strategies.hpp>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <map>
 #include <string>
 #include <utility>
 
-#include "core/base/box.h"
+#include "core/base/box_index.h"
 #include "kinemesh/error.h"
 
 namespace kinemesh {
 namespace {
 
 using Corners = std::array<Point, 3>;
-using Entry = std::pair<Box, int>;
-using Index = boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>>;
 
 double cross(const Point& a, const Point& b) {
   return a.x * b.y - a.y * b.x;
@@ -93,13 +91,13 @@ class Receivers {
  public:
   Receivers(const StepChanges& changes, const ChangedPatch& patch, const std::vector<int>& faces)
       : amounts_(faces.size(), 0.0) {
-    std::vector<Entry> entries;
+    std::vector<NumberedBox> entries;
     for (const int i : faces) {
       corners_.push_back(carried(changes, patch.faces[i].after));
       entries.emplace_back(box_of(corners_.back()), static_cast<int>(entries.size()));
       total_area_ += signed_area(corners_.back());
     }
-    index_ = Index(entries);
+    index_ = BoxIndex(entries);
   }
 
   // Spreads an amount evenly over a triangle. Overlaps of a sliver can round to more than its area.
@@ -133,7 +131,7 @@ class Receivers {
 
   std::vector<Corners> corners_;
   std::vector<double> amounts_;
-  Index index_;
+  BoxIndex index_;
   double total_area_ = 0.0, left_over_ = 0.0;
   std::vector<std::pair<int, double>> overlaps_;
 };
@@ -161,14 +159,12 @@ void remap_patch_averages(const StepChanges& changes, const ChangedPatch& patch,
 }
 
 // Of points, the nearest; of several, the one with the smallest number.
-int nearest(const Index& index, const Point& at) {
+int nearest(const BoxIndex& index, const Point& at) {
   namespace bgi = boost::geometry::index;
-  const auto rank = [&](const Entry& entry) {
-    const auto& p = entry.first.min_corner();
-    return std::pair(std::hypot(p.x() - at.x, p.y() - at.y), entry.second);
+  const auto rank = [&](const NumberedBox& entry) {
+    return std::pair(glm::distance(entry.first.low, at), entry.second);
   };
-  const boost::geometry::model::d2::point_xy<double> here(at.x, at.y);
-  auto best = rank(*index.qbegin(bgi::nearest(here, 1)));
+  auto best = rank(*index.qbegin(bgi::nearest(at, 1)));
   const Box around = box_of(at - Point(best.first), at + Point(best.first));
   for (auto it = index.qbegin(bgi::intersects(around)); it != index.qend(); ++it)
     best = std::min(best, rank(*it));
@@ -178,12 +174,12 @@ int nearest(const Index& index, const Point& at) {
 void copy_nearest_in_patch(const StepChanges& changes, const ChangedPatch& patch,
                            std::span<const double> before, std::span<double> after) {
   for (const auto& [label, share] : by_label(patch)) {
-    std::vector<Entry> entries;
+    std::vector<NumberedBox> entries;
     for (const int i : share.before) {
       const Point at = centre(carried(changes, patch.faces[i].before));
       entries.emplace_back(box_of(at, at), i);
     }
-    const Index index(entries);
+    const BoxIndex index(entries);
     for (const int i : share.after)
       after[i] = before[nearest(index, centre(carried(changes, patch.faces[i].after)))];
   }

@@ -15,17 +15,11 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from same_everywhere import SAME_EVERYWHERE  # noqa: E402
+
 TOLERANCE = 0.05
 SKIPPED = 77
-SAME_EVERYWHERE = ":".join(
-    [
-        "glibc.cpu.hwcaps=-AVX,-AVX2,-AVX512F,-AVX512VL,-ERMS,-FSRM,-FMA,-FMA4,-AVX_Fast_Unaligned_Load",
-        "glibc.cpu.x86_data_cache_size=32768",
-        "glibc.cpu.x86_shared_cache_size=1048576",
-        "glibc.cpu.x86_non_temporal_threshold=1048576",
-        "glibc.malloc.arena_max=1",
-    ]
-)
 
 
 def has_avx():

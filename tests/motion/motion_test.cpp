@@ -87,7 +87,7 @@ TEST(Motion, KeepsFixedBorders) {
 TEST(Motion, SlidingVerticesKeepTheirSide) {
   const Mesh mesh = build_mesh(grid(6));
   const Motion motion(mesh,
-                      {{std::make_shared<TaylorGreen>(Box{}), {}},
+                      {{std::make_shared<TaylorGreen>(VortexBox{}), {}},
                        {shift(0.3, -0.7), {}},
                        {std::make_shared<Pitch>(Point(0.2, 0.1), 0.3, 2.0), {}}},
                       {BorderCondition::Slide, {}});
@@ -138,7 +138,7 @@ TEST(Motion, IntegratesTheSumOfVelocitiesTogether) {
   const auto half_v = std::make_shared<ExpressionVelocity>("0", "sin(pi*y)^2*sin(2*pi*x)*cos(pi*t/8)");
   const Points sum = moved(Motion(mesh, {{half_u, {}}, {half_v, {}}}), start(mesh), 0.0, 0.1, 5);
   const Points whole =
-      moved(Motion(mesh, {{std::make_shared<Swirl>(Box{}, 8.0), {}}}), start(mesh), 0.0, 0.1, 5);
+      moved(Motion(mesh, {{std::make_shared<Swirl>(VortexBox{}, 8.0), {}}}), start(mesh), 0.0, 0.1, 5);
   for (int v = 0; v < mesh.n_vertices(); ++v) EXPECT_LT(glm::distance(sum[v], whole[v]), 1e-14);
 }
 
@@ -246,7 +246,7 @@ TEST(Motion, NoiseBelongsToTheUsersVertexNumber) {
 
 Motion busy(const Mesh& mesh) {
   return Motion(mesh,
-                {{std::make_shared<Swirl>(Box{}, 8.0), {}},
+                {{std::make_shared<Swirl>(VortexBox{}, 8.0), {}},
                  {std::make_shared<ExpressionVelocity>("0.1*sin(3*x+t)", "0.2*x*y"),
                   parse_restriction("marker:left", std::array{0.1, 0.7})},
                  {std::make_shared<Rotor>(Point(0.3, 0.6), 0.2, 1.0), {}},

@@ -3,11 +3,10 @@
 
 #include <boost/container/static_vector.hpp>
 #include <boost/functional/hash.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <unordered_map>
 #include <vector>
 
-#include "core/base/box.h"
+#include "core/base/box_index.h"
 #include "core/exact/overlap.h"
 #include "kinemesh/mesh.h"
 
@@ -47,8 +46,7 @@ class ConvexPieces {
   // Numbers of pieces whose boxes meet this one, in no particular order.
   template <class Visit>
   void for_each_near(const Box& box, const Visit& visit) const {
-    for (auto it = index_.qbegin(boost::geometry::index::intersects(box)); it != index_.qend(); ++it)
-      visit(it->second);
+    kinemesh::for_each_near(index_, box, visit);
   }
 
  private:
@@ -59,7 +57,7 @@ class ConvexPieces {
   const Mesh& mesh_;
   std::vector<ConvexPiece> pieces_;
   std::unordered_map<std::array<int, 2>, int, boost::hash<std::array<int, 2>>> number_;
-  boost::geometry::index::rtree<std::pair<Box, int>, boost::geometry::index::linear<16>> index_;
+  BoxIndex index_;
 };
 
 }  // namespace kinemesh

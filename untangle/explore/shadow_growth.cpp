@@ -1,7 +1,6 @@
 #include "untangle/explore/shadow_growth.h"
 
 #include <algorithm>
-#include <boost/geometry/index/rtree.hpp>
 #include <unordered_map>
 
 namespace kinemesh {
@@ -42,13 +41,13 @@ class Growth {
   Sheets& sheets_;
   ConvexPieces& pieces_;
   std::vector<int> creases_;  // the sides of inverted faces along them
-  boost::geometry::index::rtree<std::pair<Box, int>, boost::geometry::index::linear<16>> crease_index_;
+  BoxIndex crease_index_;
   std::unordered_map<int, bool> is_inside_;  // by face
   std::vector<SheetPair> pending_;
 };
 
 void Growth::find_creases() {
-  std::vector<std::pair<Box, int>> boxes;
+  std::vector<NumberedBox> boxes;
   for (int piece = 0; piece < pieces_.size(); ++piece) {
     if (pieces_[piece].is_grown()) continue;
     for (const int side : mesh_.sides(pieces_[piece].faces[0])) {
@@ -58,7 +57,7 @@ void Growth::find_creases() {
       boxes.emplace_back(box_of(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side))), side);
     }
   }
-  crease_index_ = decltype(crease_index_)(boxes);  // packed
+  crease_index_ = BoxIndex(boxes);  // packed
 }
 
 void Growth::start() {
@@ -103,10 +102,7 @@ void Growth::add(const Sheet& t, const Sheet& u) {
 bool Growth::is_inside(const Sheet& sheet) {
   const auto [known, is_new] = is_inside_.try_emplace(sheet.face, false);
   if (is_new && sheet.is_in_region) {
-    const auto near = boost::geometry::index::intersects(sheet.box) &&
-                      boost::geometry::index::satisfies(
-                          [&](const std::pair<Box, int>& crease) { return meets(crease.second, sheet); });
-    known->second = crease_index_.qbegin(near) == crease_index_.qend();
+    known->second = !any_near(crease_index_, sheet.box, [&](int crease) { return meets(crease, sheet); });
   }
   return known->second;
 }

@@ -66,8 +66,7 @@ void Sheets::open(Sheet& sheet, const ConvexPieces& pieces) {
 
 std::vector<Sheet*> Sheets::add_piece(const ConvexPieces& pieces, int piece) {
   std::vector<int> near;
-  const auto meets_box = boost::geometry::index::intersects(pieces[piece].box);
-  for (auto it = index_.qbegin(meets_box); it != index_.qend(); ++it) near.push_back(it->second);
+  for_each_near(index_, pieces[piece].box, [&](int i) { near.push_back(i); });
   std::sort(near.begin(), near.end());
   std::vector<Sheet*> under;
   for (const int i : near) {

@@ -1,12 +1,11 @@
 // The faces that a local exploration has read, and which pieces of X each of them lies over.
 #pragma once
 
-#include <boost/geometry/index/rtree.hpp>
 #include <deque>
 #include <unordered_map>
 #include <vector>
 
-#include "core/base/box.h"
+#include "core/base/box_index.h"
 #include "core/exact/overlap.h"
 #include "kinemesh/mesh.h"
 #include "kinemesh/predicates.h"
@@ -51,7 +50,7 @@ class Sheets {
   std::deque<Sheet> sheets_;  // addresses last
   std::unordered_map<int, Sheet*> sheet_of_;
   std::vector<Sheet*> open_;
-  boost::geometry::index::rtree<std::pair<Box, int>, boost::geometry::index::linear<16>> index_;  // of open_
+  BoxIndex index_;  // of open_
 };
 
 }  // namespace kinemesh

@@ -16,7 +16,7 @@ void Hole::dig(const Mesh& mesh, const FaceSets& sets, int set) {
       const int across = mesh.face_of(Mesh::opposite(sides[k])), edge = Mesh::edge_of(sides[k]);
       if (across == none || sets.set_of(across) != set) {
         border.push_back({sides[k], corners[k], corners[k == 2 ? 0 : k + 1]});
-      } else if (sides[k] == 2 * edge) {
+      } else if (face < across) {
         inner.push_back(edge);
         if (mesh.constraint_of(edge) != none) inner_constraints.push_back(sides[k]);
       }

@@ -18,7 +18,8 @@ struct Hole {
   std::vector<Side> border;  // in the order of the faces, from corner 0 of each on
   std::vector<int> inner;    // edges between two of the faces, ascending
   std::vector<int>
-      inner_constraints;  // half-edges 2e of those that are constrained, in the order of the faces
+      inner_constraints;  // of those that are constrained, the half-edges along their lower faces, in
+                          // the order of the faces
 
   // Takes out the faces of a set, ascending. Reads no other face. Keeps its memory from one to the next.
   void dig(const Mesh& mesh, const FaceSets& sets, int set);

@@ -282,7 +282,7 @@ class Construction {
         const int constraint = mesh_.constraint_of(Mesh::edge_of(side));
         const int across = mesh_.face_of(Mesh::opposite(side));
         const bool inner = across != none && sets_.set_of(across) == set_;
-        if (constraint == none || !inner || side > Mesh::opposite(side)) continue;
+        if (constraint == none || !inner || face > across) continue;
         const auto stops = stops_along(side);
         for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
           const Key key{Mesh::edge_of(side), std::min(stops[i], stops[i + 1]),

@@ -1,15 +1,12 @@
 #include "untangle/fill/retention.h"
 
 #include <algorithm>
-#include <boost/geometry/index/rtree.hpp>
 
-#include "core/base/box.h"
+#include "core/base/box_index.h"
 #include "kinemesh/predicates.h"
 
 namespace kinemesh {
 namespace {
-
-namespace bgi = boost::geometry::index;
 
 class Choice {
  public:
@@ -34,9 +31,6 @@ class Choice {
   }
 
  private:
-  using Entry = std::pair<Box, int>;
-  using Index = bgi::rtree<Entry, bgi::linear<16>>;
-
   void index_vertices() {
     std::vector<int> vertices;
     for (const int face : faces_) {
@@ -45,24 +39,23 @@ class Choice {
     }
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    std::vector<Entry> entries;
+    std::vector<NumberedBox> entries;
     for (const int v : vertices) entries.emplace_back(box_of(mesh_.position(v), mesh_.position(v)), v);
-    vertex_index_ = Index(entries);  // packed
+    vertex_index_ = BoxIndex(entries);  // packed
   }
 
   bool is_clear(int face) const {
     const auto p = mesh_.corners(face);
     if (orientation(p[0], p[1], p[2]) != Orientation::CounterClockwise) return false;
-    const auto blocks = [&](const Entry& entry) {
+    const auto blocks = [&](int vertex) {
       const auto& t = mesh_.triangles()[face];
-      if (std::find(t.begin(), t.end(), entry.second) != t.end()) return false;
-      const Point& q = mesh_.position(entry.second);
+      if (std::find(t.begin(), t.end(), vertex) != t.end()) return false;
+      const Point& q = mesh_.position(vertex);
       return orientation(p[0], p[1], q) != Orientation::Clockwise &&
              orientation(p[1], p[2], q) != Orientation::Clockwise &&
              orientation(p[2], p[0], q) != Orientation::Clockwise;
     };
-    const auto blocking = bgi::intersects(box_of(p)) && bgi::satisfies(blocks);
-    return vertex_index_.qbegin(blocking) == vertex_index_.qend();
+    return !any_near(vertex_index_, box_of(p), blocks);
   }
 
   // Of clear faces; the largest first, then by the smallest face.
@@ -94,16 +87,13 @@ class Choice {
 
   bool overlaps_kept(int face) const {
     const auto corners = mesh_.corners(face);
-    const auto overlaps = [&](const Entry& kept) {
-      return interiors_overlap(corners, mesh_.corners(kept.second));
-    };
-    const auto overlapping = bgi::intersects(box_of(corners)) && bgi::satisfies(overlaps);
-    return kept_index_.qbegin(overlapping) != kept_index_.qend();
+    return any_near(kept_index_, box_of(corners),
+                    [&](int kept) { return interiors_overlap(corners, mesh_.corners(kept)); });
   }
 
   const Mesh& mesh_;
   const std::vector<int>& faces_;
-  Index vertex_index_, kept_index_;
+  BoxIndex vertex_index_, kept_index_;
   std::vector<bool> is_clear_;  // beside faces_: upright, and no other vertex in the shadow
   std::vector<std::vector<int>> components_;
 };

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <limits>
+
+#include "core/base/box.h"
 
 namespace kinemesh {
 namespace {
@@ -30,18 +31,9 @@ void shuffle(std::vector<T>& items) {
   for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random_bits(i) % i]);
 }
 
-struct Box {
-  Point low, high;
-};
-
 Box bounding_box(std::span<const LinkEdge> link) {
-  Box box{link.front()[0], link.front()[0]};
-  for (const auto& edge : link) {
-    for (const Point& p : edge) {
-      box.low = glm::min(box.low, p);
-      box.high = glm::max(box.high, p);
-    }
-  }
+  Box box = nowhere;
+  for (const auto& [from, to] : link) box = hull_of(box, box_of(from, to));
   return box;
 }
 

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "core/base/parallel.h"
+#include "core/mesh/around.h"
 #include "core/sweep/face_sweep.h"
 #include "kinemesh/predicates.h"
 #include "untangle/quality/cotangents.h"
@@ -91,9 +92,10 @@ void DelaunayUpkeep::find_wrong_edges(const Mesh& mesh) {
   wrong_.clear();
   for (int edge = 0; edge < mesh.n_edges(); ++edge) {
     if (!is_wrong_[edge]) continue;
-    wrong_.push_back(edge);
+    wrong_.push_back(side_along(mesh, lower_side(mesh, edge)));
     is_wrong_[edge] = false;
   }
+  std::sort(wrong_.begin(), wrong_.end());  // in no order that depends on what was flipped before
 }
 
 void DelaunayUpkeep::bound_angles(const Mesh& mesh, int face) {

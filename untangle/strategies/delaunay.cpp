@@ -10,13 +10,19 @@
 namespace kinemesh {
 namespace {
 
-// An inverted or flat face beside the edge, or none.
+// An inverted or flat face beside the edge, the lower one first, or none.
 int tangled_face_beside(const Mesh& mesh, int edge) {
-  for (const int side : {2 * edge, 2 * edge + 1}) {
+  const int h = lower_side(mesh, edge);
+  for (const int side : {h, Mesh::opposite(h)}) {
     const int face = mesh.face_of(side);
     if (face != none && !is_upright(mesh, face)) return face;
   }
   return none;
+}
+
+bool is_lower(const Mesh& mesh, int halfedge) {
+  const int across = mesh.face_of(Mesh::opposite(halfedge));
+  return across == none || mesh.face_of(halfedge) < across;
 }
 
 // Pre: both faces are upright. If not, the two form a strictly convex quadrilateral, so that a flip leaves
@@ -35,16 +41,21 @@ bool is_locally_delaunay(const Mesh& mesh, int edge) {
 // volume off this sum and changes nothing else. So no set of faces comes twice, and there are finitely many.
 FlipOutcome DelaunayFlipping::run(Mesh& mesh, const RepairOptions& options) {
   reset(mesh);
-  for (int edge = mesh.n_edges(); edge-- > 0;) push(edge);
+  for (int face = mesh.n_faces(); face-- > 0;) {
+    const auto sides = mesh.sides(face);
+    for (int k = 3; k-- > 0;)
+      if (is_lower(mesh, sides[k])) push(4 * face + k);
+  }
   return run_pending(mesh, options);
 }
 
-FlipOutcome DelaunayFlipping::run(Mesh& mesh, std::span<const int> edges, const RepairOptions& options) {
-  for (const int edge : edges) {
-    if (edge < 0 || edge >= mesh.n_edges()) throw InputError("there is no edge " + std::to_string(edge));
+FlipOutcome DelaunayFlipping::run(Mesh& mesh, std::span<const int> sides, const RepairOptions& options) {
+  for (const int side : sides) {
+    if (side < 0 || side >= 4 * mesh.n_faces() || side % 4 == 3)
+      throw InputError("there is no side " + std::to_string(side));
   }
   reset(mesh);
-  for (auto edge = edges.rbegin(); edge != edges.rend(); ++edge) push(*edge);
+  for (auto side = sides.rbegin(); side != sides.rend(); ++side) push(*side);
   return run_pending(mesh, options);
 }
 
@@ -54,15 +65,16 @@ FlipOutcome DelaunayFlipping::run_pending(Mesh& mesh, const RepairOptions& optio
   return outcome;
 }
 
-// An edge waits, and a face is noted, once at most.
+// A side waits, and a face is noted, once at most.
 void DelaunayFlipping::reserve(const Mesh& mesh) {
-  pending_.reserve(mesh.n_edges());
+  pending_.reserve(3 * static_cast<std::size_t>(mesh.n_faces()));
   flipped_faces_.reserve(mesh.n_faces());
-  if (static_cast<int>(is_pending_.size()) < mesh.n_edges()) is_pending_.resize(mesh.n_edges(), false);
+  if (is_pending_.size() < 4 * static_cast<std::size_t>(mesh.n_faces()))
+    is_pending_.resize(4 * static_cast<std::size_t>(mesh.n_faces()), false);
   if (static_cast<int>(is_flipped_.size()) < mesh.n_faces()) is_flipped_.resize(mesh.n_faces(), false);
 }
 
-// A defect or an exception may have left edges behind.
+// A defect or an exception may have left sides behind.
 void DelaunayFlipping::reset(const Mesh& mesh) {
   while (!pending_.empty()) pop();
   for (const int face : flipped_faces_) is_flipped_[face] = false;
@@ -70,21 +82,23 @@ void DelaunayFlipping::reset(const Mesh& mesh) {
   reserve(mesh);
 }
 
-void DelaunayFlipping::push(int edge) {
-  if (is_pending_[edge]) return;
-  pending_.push_back(edge);
-  is_pending_[edge] = true;
+void DelaunayFlipping::push(int side) {
+  if (is_pending_[side]) return;
+  pending_.push_back(side);
+  is_pending_[side] = true;
 }
 
 int DelaunayFlipping::pop() {
-  const int edge = pending_.back();
+  const int side = pending_.back();
   pending_.pop_back();
-  is_pending_[edge] = false;
-  return edge;
+  is_pending_[side] = false;
+  return side;
 }
 
-void DelaunayFlipping::visit(Mesh& mesh, int edge, const RepairOptions& options, FlipOutcome& outcome) {
+// A side that waits while its face is rewritten is looked at all the same: the new one may be another edge's.
+void DelaunayFlipping::visit(Mesh& mesh, int side, const RepairOptions& options, FlipOutcome& outcome) {
   ++outcome.visits;
+  const int edge = Mesh::edge_of(halfedge_at(mesh, side));
   const int tangled = tangled_face_beside(mesh, edge);
   if (tangled != none) {
     untangle(mesh, tangled, options, outcome);
@@ -101,18 +115,20 @@ void DelaunayFlipping::untangle(Mesh& mesh, int face, const RepairOptions& optio
   for (const auto& region : repaired.record.regions) {
     ++outcome.untangled;
     outcome.replaced += static_cast<int>(region.faces.size());
-    for (const int replaced : region.faces) {
-      for (const int side : mesh.sides(replaced)) push(Mesh::edge_of(side));
-    }
+    for (const int replaced : region.faces)
+      for (int k = 0; k < 3; ++k) push(4 * replaced + k);
   }
 }
 
+// The four edges around it are looked at again.
 void DelaunayFlipping::flip(Mesh& mesh, int edge) {
   mesh.flip(edge);
-  for (const int h : {2 * edge, 2 * edge + 1}) {
-    note_flipped(mesh.face_of(h));
-    push(Mesh::edge_of(mesh.next(h)));
-    push(Mesh::edge_of(mesh.prev(h)));
+  const int h = lower_side(mesh, edge);
+  for (const int diagonal : {h, Mesh::opposite(h)}) {
+    const int side = side_along(mesh, diagonal), face = side >> 2, k = side & 3;
+    note_flipped(face);
+    push(4 * face + (k + 1) % 3);
+    push(4 * face + (k + 2) % 3);
   }
 }
 
@@ -120,6 +136,16 @@ void DelaunayFlipping::note_flipped(int face) {
   if (is_flipped_[face]) return;
   flipped_faces_.push_back(face);
   is_flipped_[face] = true;
+}
+
+std::vector<int> sides_of(const Mesh& mesh, std::span<const int> faces) {
+  std::vector<int> sides;
+  for (const int face : faces)
+    for (const int h : mesh.sides(face))
+      sides.push_back(side_along(mesh, lower_side(mesh, Mesh::edge_of(h))));
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  return sides;
 }
 
 std::vector<int> edges_of(const Mesh& mesh, std::span<const int> faces) {

@@ -113,7 +113,7 @@ class EdgeFlips::Run {
     while (!queue_.empty() && n_flips_ != flips_before) {
       flips_before = n_flips_;
       while (!queue_.empty()) visit(pop());
-      for (const int edge : std::exchange(blocked_, {})) push(edge);
+      for (const int side : std::exchange(blocked_, {})) push(Mesh::edge_of(halfedge_at(mesh_, side)));
     }
   }
 
@@ -124,7 +124,7 @@ class EdgeFlips::Run {
 
   void push(int edge) {
     if (!mesh_.is_flippable(edge) || !flip_untangles(mesh_, edge)) return;
-    queue_.push_back({gain_of(mesh_, edge), edge});
+    queue_.push_back({gain_of(mesh_, edge), side_along(mesh_, lower_side(mesh_, edge))});
     std::push_heap(queue_.begin(), queue_.end());
   }
 
@@ -137,14 +137,17 @@ class EdgeFlips::Run {
 
   // Flips beside an edge have put it into the queue again, and what was in there before means nothing.
   void visit(const Candidate& candidate) {
-    const int edge = candidate.edge;
-    if (candidate.gain != gain_of(mesh_, edge) || !flip_untangles(mesh_, edge)) return;
+    const int edge = Mesh::edge_of(halfedge_at(mesh_, candidate.side));
+    if (!mesh_.is_flippable(edge) || candidate.gain != gain_of(mesh_, edge) || !flip_untangles(mesh_, edge))
+      return;
     if (would_double(mesh_, edge)) {
-      blocked_.push_back(edge);  // until the other edge goes
+      blocked_.push_back(candidate.side);  // until the other edge goes
       return;
     }
+    const auto [low, high] = std::minmax({mesh_.face_of(2 * edge), mesh_.face_of(2 * edge + 1)});
     flip(edge);
-    for (const int h : {2 * edge, 2 * edge + 1}) push_sides(mesh_.face_of(h));
+    push_sides(low);
+    push_sides(high);
   }
 
   void flip(int edge) {
@@ -168,7 +171,7 @@ class EdgeFlips::Run {
   const Mesh& mesh_;
   FaceSets& rewritten_;
   std::vector<Candidate>& queue_;  // a heap
-  std::vector<int> blocked_;       // edges whose flips would double others
+  std::vector<int> blocked_;       // sides of edges whose flips would double others
   int n_flips_ = 0;
 };
 

@@ -35,12 +35,12 @@ class EdgeFlips : public Strategy {
   std::vector<int> rewritten_faces();
   std::vector<RegionRecord> describe_regions(const Mesh& mesh) const;
 
-  // The largest gain comes first, of equal ones the edge with the smaller number.
+  // The largest gain comes first, of equal ones the side with the smaller number.
   struct Candidate {
     double gain;
-    int edge;
+    int side;  // of the lower face when it was pushed
     bool operator<(const Candidate& other) const {
-      return std::tuple(gain, other.edge) < std::tuple(other.gain, edge);
+      return std::tuple(gain, other.side) < std::tuple(other.gain, side);
     }
   };
 

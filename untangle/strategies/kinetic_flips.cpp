@@ -180,7 +180,8 @@ bool KineticFlips::flip_beside_meeting(int face) {
 void KineticFlips::flip(int edge) {
   undo_.flip(edge);
   ++counts_.flips;
-  for (const int face : {mesh_.face_of(2 * edge), mesh_.face_of(2 * edge + 1)}) {
+  const auto [low, high] = std::minmax({mesh_.face_of(2 * edge), mesh_.face_of(2 * edge + 1)});
+  for (const int face : {low, high}) {
     if (!is_at_end_) schedule(face, &now_);
     doubtful_.push_back(face);
     for (const int side : mesh_.sides(face)) {

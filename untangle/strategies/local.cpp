@@ -7,9 +7,13 @@
 #include "core/mesh/undo.h"
 #include "kinemesh/error.h"
 #include "kinemesh/predicates.h"
+#include "untangle/explore/local_exploration.h"
 #include "untangle/fill/doubled_edges.h"
 #include "untangle/fill/overlapping_mesher.h"
 #include "untangle/fill/records.h"
+#include "untangle/fill/region_mesher.h"
+#include "untangle/fill/region_repair.h"
+#include "untangle/fill/retention.h"
 #include "untangle/walk/detect.h"
 #include "untangle/walk/global_walk.h"
 
@@ -45,6 +49,42 @@ std::vector<int> seeds_by_user_number(const Mesh& mesh, const Tangles& tangles) 
 
 }  // namespace
 
+class LocalUntangling::Worker {
+ public:
+  RepairOutcome repair_seeds(Mesh& mesh, std::span<const int> seeds, const RepairOptions& options);
+
+ private:
+  struct Region {
+    RegionRecord record;
+    Patch patch;
+    int doubled_edges = 0;
+    std::optional<Defect> defect;
+  };
+
+  Region untangle(const Mesh& mesh, int seed, const RepairOptions& options, RepairRecord& times);
+  std::optional<Region> minimum_region(const Mesh& mesh, int seed, const RepairOptions& options,
+                                       RepairRecord& times);
+  Region piece_of_global_walk(const Mesh& mesh, int seed, const RepairOptions& options, RepairRecord& times);
+  bool remesh(const Mesh& mesh, const LocalExploration& exploration, const RepairOptions& options,
+              Region& region);
+  bool remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region);
+  void finish_region(const Mesh& mesh, const FaceSets& sets, const Hole& hole, const RepairOptions& options,
+                     NewFaces faces, Region& region);
+
+  FaceSets sets_;  // the region at hand
+  Hole hole_, rest_;
+  RegionMesher mesher_;
+  Finisher finisher_;
+  Retention retention_;
+  RegionRepair pieces_;  // of the global walk of this repair, once one was needed
+  bool has_walked_ = false;
+};
+
+LocalUntangling::LocalUntangling() : worker_(std::make_unique<Worker>()) {}
+LocalUntangling::~LocalUntangling() = default;
+LocalUntangling::LocalUntangling(LocalUntangling&&) noexcept = default;
+LocalUntangling& LocalUntangling::operator=(LocalUntangling&&) noexcept = default;
+
 RepairOutcome LocalUntangling::repair(Mesh& mesh, const RepairOptions& options) {
   const Stopwatch detecting;
   const auto tangles = detect(mesh, options.minima, options.moved);
@@ -61,6 +101,11 @@ RepairOutcome LocalUntangling::repair(Mesh& mesh, const RepairOptions& options) 
 
 RepairOutcome LocalUntangling::repair_seeds(Mesh& mesh, std::span<const int> seeds,
                                             const RepairOptions& options) {
+  return worker_->repair_seeds(mesh, seeds, options);
+}
+
+RepairOutcome LocalUntangling::Worker::repair_seeds(Mesh& mesh, std::span<const int> seeds,
+                                                    const RepairOptions& options) {
   for (const int seed : seeds) {
     if (seed < 0 || seed >= mesh.n_faces()) throw InputError("there is no face " + std::to_string(seed));
     if (!is_upright(mesh, seed)) continue;
@@ -90,8 +135,9 @@ RepairOutcome LocalUntangling::repair_seeds(Mesh& mesh, std::span<const int> see
   return outcome;
 }
 
-LocalUntangling::Region LocalUntangling::untangle(const Mesh& mesh, int seed, const RepairOptions& options,
-                                                  RepairRecord& times) {
+LocalUntangling::Worker::Region LocalUntangling::Worker::untangle(const Mesh& mesh, int seed,
+                                                                  const RepairOptions& options,
+                                                                  RepairRecord& times) {
   if (turn(mesh, seed) == Orientation::Clockwise) {
     if (auto region = minimum_region(mesh, seed, options, times)) return std::move(*region);
   }
@@ -99,9 +145,8 @@ LocalUntangling::Region LocalUntangling::untangle(const Mesh& mesh, int seed, co
 }
 
 // Nothing where degenerate positions are in the way, or labels that other tangles keep from fitting.
-std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mesh& mesh, int seed,
-                                                                       const RepairOptions& options,
-                                                                       RepairRecord& times) {
+std::optional<LocalUntangling::Worker::Region> LocalUntangling::Worker::minimum_region(
+    const Mesh& mesh, int seed, const RepairOptions& options, RepairRecord& times) {
   const Stopwatch exploring;
   LocalExploration exploration(mesh);
   const bool found = exploration.run(seed);
@@ -129,8 +174,8 @@ std::optional<LocalUntangling::Region> LocalUntangling::minimum_region(const Mes
 }
 
 // False where degenerate positions are in the way.
-bool LocalUntangling::remesh(const Mesh& mesh, const LocalExploration& exploration,
-                             const RepairOptions& options, Region& region) {
+bool LocalUntangling::Worker::remesh(const Mesh& mesh, const LocalExploration& exploration,
+                                     const RepairOptions& options, Region& region) {
   const auto result = mesher_.run(mesh, hole_);
   if (result == RegionMesher::Result::NoMesh) {
     region.defect = mesher_.defect();
@@ -148,7 +193,7 @@ bool LocalUntangling::remesh(const Mesh& mesh, const LocalExploration& explorati
 }
 
 // False where not all goes well: then there is more to replace, or a reason that the whole region tells.
-bool LocalUntangling::remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region) {
+bool LocalUntangling::Worker::remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region) {
   if (!retention_.run(mesh, hole_.faces)) return false;
   rest_.dig(mesh, retention_.rest(), 0);
   if (mesher_.run(mesh, rest_) != RegionMesher::Result::Done || !fit(mesher_.new_faces(), rest_))
@@ -158,16 +203,16 @@ bool LocalUntangling::remesh_rest(const Mesh& mesh, const RepairOptions& options
   return !region.defect;
 }
 
-void LocalUntangling::finish_region(const Mesh& mesh, const FaceSets& sets, const Hole& hole,
-                                    const RepairOptions& options, NewFaces faces, Region& region) {
+void LocalUntangling::Worker::finish_region(const Mesh& mesh, const FaceSets& sets, const Hole& hole,
+                                            const RepairOptions& options, NewFaces faces, Region& region) {
   region.doubled_edges = avoid_doubled_edges(mesh, sets, 0, faces);
   region.defect = finisher_.run(mesh, hole, faces, options.allow_escaped, region.patch);
 }
 
 // One walk serves all seeds: each region that is replaced lies in one piece, whose border stays.
-LocalUntangling::Region LocalUntangling::piece_of_global_walk(const Mesh& mesh, int seed,
-                                                              const RepairOptions& options,
-                                                              RepairRecord& times) {
+LocalUntangling::Worker::Region LocalUntangling::Worker::piece_of_global_walk(const Mesh& mesh, int seed,
+                                                                              const RepairOptions& options,
+                                                                              RepairRecord& times) {
   const Stopwatch exploring;
   if (!has_walked_) {
     GlobalWalk().run(mesh, detect(mesh), pieces_.regions());

@@ -18,9 +18,8 @@ void BoxTree::place(std::span<const Box> boxes) {
   if (boxes.empty()) return;
   Box all = boxes.front();
   for (const Box& box : boxes) all = hull_of(all, box);
-  const auto &p = all.min_corner(), &q = all.max_corner();
-  origin_ = {p.x(), p.y()};
-  scale_ = 1.0 / std::max(q.x() - p.x(), q.y() - p.y());
+  origin_ = all.low;
+  scale_ = 1.0 / std::max(all.high.x - all.low.x, all.high.y - all.low.y);
   if (!std::isnormal(scale_)) scale_ = 1.0;
 }
 

@@ -71,9 +71,8 @@ class BoxTree {
 
   // Coordinates become floats by a map that keeps their order, so that what meets before meets afterwards.
   RoundedBox rounded(const Box& box) const {
-    const auto &p = box.min_corner(), &q = box.max_corner();
-    return {rounded(p.x(), origin_.x), rounded(p.y(), origin_.y), rounded(q.x(), origin_.x),
-            rounded(q.y(), origin_.y)};
+    return {rounded(box.low.x, origin_.x), rounded(box.low.y, origin_.y), rounded(box.high.x, origin_.x),
+            rounded(box.high.y, origin_.y)};
   }
   float rounded(double value, double origin) const { return static_cast<float>((value - origin) * scale_); }
 

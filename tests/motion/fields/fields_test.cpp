@@ -166,7 +166,7 @@ TEST(Swirl, ReturnsAfterItsPeriodWithTheOrderOfTheIntegrator) {
 }
 
 TEST(Swirl, StandsStillOnTheBoxBorderAndOutside) {
-  const Box box{{3.0, 1.0}, {2.0, 4.0}};
+  const VortexBox box{{3.0, 1.0}, {2.0, 4.0}};
   const Swirl field(box, 1.0);
   for (const double s : {0.0, 0.1, 0.37, 0.5, 0.9, 1.0}) {
     for (const Point& x : {Point(2.0, -1.0 + 4 * s), Point(4.0, -1.0 + 4 * s)})
@@ -232,7 +232,7 @@ TEST(Twist, HasTheFormulaAndStandsStillOnTheBorder) {
 }
 
 TEST(Fields, FlowsOfIncompressibleFluidsAreFreeOfDivergence) {
-  const Box box{{1.0, 2.0}, {2.0, 3.0}};
+  const VortexBox box{{1.0, 2.0}, {2.0, 3.0}};
   const Swirl swirl(box, 8.0);
   const TaylorGreen taylor_green(box);
   const Gresho gresho(box);
@@ -251,7 +251,7 @@ TEST(Fields, FlowsOfIncompressibleFluidsAreFreeOfDivergence) {
 }
 
 TEST(Fields, GrowWithTheirBox) {
-  const Box box{{3.0, -1.0}, {4.0, 4.0}};
+  const VortexBox box{{3.0, -1.0}, {4.0, 4.0}};
   const auto grown = [&](const VelocityField& unit, const VelocityField& big) {
     for (const Point& p : random_points(20, 0, 1))
       expect_near(big.velocity(box.center + (p - 0.5) * box.size, 0.3), unit.velocity(p, 0.3) * box.size,
