@@ -110,7 +110,7 @@ Named named_by(const Mesh& mesh, const OnLabel& on) {
     found = true;
     for (const int v : mesh.triangles()[face]) named.inside[v] = 1;
     for (const int h : mesh.sides(face)) {
-      const int across = mesh.face_of(Mesh::opposite(h));
+      const int across = mesh.face_across(h);
       if (across == none || mesh.label(across) != on.label) named.edges.push_back({mesh.from(h), mesh.to(h)});
     }
   }

@@ -1,6 +1,8 @@
 // What surrounds a vertex or lies beside an edge, as moving and flipping ask for it.
 #pragma once
 
+#include <algorithm>
+
 #include "kinemesh/mesh.h"
 #include "kinemesh/predicates.h"
 
@@ -16,42 +18,84 @@ inline bool is_movable(const Mesh& mesh, int v) {
   return mesh.user_vertex(v) != none && !mesh.is_isolated(v) && !mesh.is_constrained(v) && !mesh.is_fixed(v);
 }
 
-// The half-edge of an edge along the lower of its two faces.
-inline int lower_side(const Mesh& mesh, int edge) {
-  const int left = mesh.face_of(2 * edge), right = mesh.face_of(2 * edge + 1);
-  return left != none && (right == none || left < right) ? 2 * edge : 2 * edge + 1;
-}
-
-// Sides by number: 4 f + k is that of face f from corner k to corner k + 1.
-inline int halfedge_at(const Mesh& mesh, int side) {
-  return mesh.sides(side >> 2)[side & 3];
-}
-inline int side_along(const Mesh& mesh, int halfedge) {
-  const auto sides = mesh.sides(mesh.face_of(halfedge));
-  return 4 * mesh.face_of(halfedge) + (sides[0] == halfedge ? 0 : sides[1] == halfedge ? 1 : 2);
-}
-
-// The half-edge that leaves a vertex along the lowest of its faces; on the hull, along the hull. Where a fan starts does
-// not depend on what was replaced before. Pre: not isolated.
+// Where a fan starts does not depend on what was replaced before: the side that leaves a vertex along the hull, or, inside,
+// that of the lowest of its faces. Pre: not isolated.
 inline int start_of_fan(const Mesh& mesh, int vertex) {
-  const int first = mesh.outgoing(vertex);
-  int start = first;
-  for (int h = Mesh::opposite(mesh.prev(first)); h != first; h = Mesh::opposite(mesh.prev(h)))
-    if (mesh.face_of(h) < mesh.face_of(start)) start = h;  // none is below all faces
-  return start;
+  const int some = mesh.side_from(vertex);
+  int start = some;
+  for (int side = some;;) {
+    const int across = mesh.opposite(side);
+    if (across == none) return side;
+    side = Mesh::next(across);
+    if (side == some) return start;
+    start = std::min(start, side);
+  }
 }
 
-// Calls visit(h) for each half-edge h that leaves the vertex, counter-clockwise while its faces are upright, from
-// start_of_fan on.
+// Calls visit(side) for the sides that start at a vertex, each of another of its faces, counter-clockwise while these are
+// upright, from start_of_fan on.
 template <class Visit>
-void for_each_outgoing(const Mesh& mesh, int vertex, const Visit& visit) {
+void for_each_side_from(const Mesh& mesh, int vertex, const Visit& visit) {
   if (mesh.is_isolated(vertex)) return;
   const int first = start_of_fan(mesh, vertex);
-  int h = first;
+  int side = first;
   do {
-    visit(h);
-    h = Mesh::opposite(mesh.prev(h));
-  } while (h != first);
+    visit(side);
+    side = mesh.opposite(Mesh::prev(side));
+  } while (side != first && side != none);
+}
+
+// Calls visit(neighbour, side) for each edge at a vertex, with its side that starts there; counter-clockwise, as above. On
+// the hull the first is the edge that has no such side, with the one that ends there.
+template <class Visit>
+void for_each_neighbour(const Mesh& mesh, int vertex, const Visit& visit) {
+  if (mesh.is_isolated(vertex)) return;
+  const int first = start_of_fan(mesh, vertex);
+  if (mesh.opposite(first) == none) {
+    int last = first;
+    for (int next = first; next != none; next = mesh.opposite(Mesh::prev(next))) last = Mesh::prev(next);
+    visit(mesh.from(last), last);
+  }
+  for_each_side_from(mesh, vertex, [&](int side) { visit(mesh.to(side), side); });
+}
+
+// The edges at a vertex, one after the other, in an order that may be any.
+class Spokes {
+ public:
+  Spokes(const Mesh& mesh, int vertex) : mesh_(mesh), first_(mesh.side_from(vertex)), side_(first_) {}
+
+  bool is_done() const { return side_ == none; }
+  int side() const { return side_; }  // one of the edge
+  int end() const { return is_ending_ ? mesh_.from(side_) : mesh_.to(side_); }
+
+  // Counter-clockwise; where that comes to the hull, to its edge, which no side starts along, and clockwise from the first.
+  void advance() {
+    if (is_ending_ || is_back_) return turn_back();
+    const int before = Mesh::prev(side_), next = mesh_.opposite(before);
+    is_ending_ = next == none;
+    side_ = is_ending_ ? before : next == first_ ? none : next;
+  }
+
+ private:
+  void turn_back() {
+    const int across = mesh_.opposite(is_back_ ? side_ : first_);
+    is_back_ = true;
+    is_ending_ = false;
+    side_ = across == none ? none : Mesh::next(across);
+  }
+
+  const Mesh& mesh_;
+  int first_, side_;
+  bool is_ending_ = false;  // the side at hand ends at the vertex
+  bool is_back_ = false;
+};
+
+// Whether an edge joins the two. Looks around both in turn, so that one with many neighbours costs no more than the other.
+inline bool are_joined(const Mesh& mesh, int v, int w) {
+  for (Spokes at_v(mesh, v), at_w(mesh, w); !at_v.is_done() && !at_w.is_done();
+       at_v.advance(), at_w.advance())
+    if (at_v.end() == w || at_w.end() == v) return true;
+  return false;
 }
 
 }  // namespace kinemesh

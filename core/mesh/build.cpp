@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "core/base/parallel.h"
+#include "core/mesh/around.h"
 #include "core/mesh/curve.h"
 #include "core/mesh/frame.h"
 #include "core/mesh/padding.h"
@@ -16,17 +18,11 @@
 
 namespace kinemesh {
 
-using OpenMesh::FaceHandle;
-using OpenMesh::HalfedgeHandle;
-using OpenMesh::VertexHandle;
-
 class MeshBuilder {
  public:
-  // mesh: empty, and where it stays: OpenMesh's connectivity does not move, it copies.
-  MeshBuilder(const MeshData& data, const BuildOptions& options, Mesh& mesh)
-      : data_(data), options_(options), mesh_(mesh) {}
+  MeshBuilder(const MeshData& data, const BuildOptions& options) : data_(data), options_(options) {}
 
-  void build() {
+  Mesh build() {
     check_input();
     place_vertices();
     place_faces();
@@ -34,6 +30,7 @@ class MeshBuilder {
     connect();
     constrain();
     if (auto defect = validate_connectivity(mesh_)) throw NoEmbedding(std::move(*defect));
+    return std::move(mesh_);
   }
 
  private:
@@ -47,23 +44,21 @@ class MeshBuilder {
   void embed();
   void add_padding(std::span<const Triangle> padding);
   void connect();
-  std::vector<int> number_halfedges();
   void label_vertices();
-  void link_face(int face);
-  void link_border(const std::vector<int>& border);
+  void trace_hull();
   void constrain();
-  void constrain_edge(int edge, int marker);
+  void constrain_edge(int side, int marker);
   void constrain_markers();
+  void number_constraints();
   int find_edge(int user_a, int user_b) const;
-  int following(int halfedge, int first) const;
-  bool is_in_domain(int halfedge) const;
-  int label_beside(int halfedge) const;
+  bool is_in_domain(int side) const;
+  int label_beside(int side) const;
 
   const MeshData& data_;
   const BuildOptions& options_;
-  Mesh& mesh_;
-  std::vector<int> opposite_;  // per side, padding included; until all is connected
-  std::vector<int> halfedge_;  // per side; likewise
+  Mesh mesh_;
+  std::vector<int> opposite_;                // per side 3 f + k, padding included; until all is connected
+  std::unordered_map<int, int> constraint_;  // by lower side
 };
 
 namespace {
@@ -252,44 +247,25 @@ void MeshBuilder::add_padding(std::span<const Triangle> padding) {
 }
 
 void MeshBuilder::connect() {
-  const int n_sides = 3 * mesh_.n_faces();
-  const auto n_hull = std::count(opposite_.begin(), opposite_.end(), none);
-  const auto n_edges = (n_sides + n_hull) / 2;
-  std::vector<int> hull;
-  parallel_pair([&] { mesh_.topology_.resize(mesh_.n_vertices(), n_edges, mesh_.n_faces()); },
-                [&] {
-                  hull = number_halfedges();
-                  label_vertices();
-                });
-  parallel_parts(mesh_.n_faces(), grain, [&](int, int begin, int end) {
-    for (int f = begin; f < end; ++f) link_face(f);
-  });
-  for (int s = 0; s < n_sides; s += 3) {
-    const auto& [a, b, c] = mesh_.triangles_[s / 3];
-    mesh_.topology_.set_halfedge_handle(VertexHandle(a), HalfedgeHandle(halfedge_[s]));
-    mesh_.topology_.set_halfedge_handle(VertexHandle(b), HalfedgeHandle(halfedge_[s + 1]));
-    mesh_.topology_.set_halfedge_handle(VertexHandle(c), HalfedgeHandle(halfedge_[s + 2]));
-  }
-  link_border(hull);
+  const int n = mesh_.n_faces();
+  mesh_.across_.resize(n);
+  mesh_.side_from_.assign(mesh_.n_vertices(), none);
+  parallel_pair(
+      [&] {
+        for (int f = 0; f < n; ++f) {
+          for (int k = 0; k < 3; ++k) {
+            const int across = opposite_[3 * f + k];
+            mesh_.across_[f][k] = (across == none ? none : Mesh::side(across / 3, across % 3)) * 2;
+          }
+        }
+      },
+      [&] {
+        label_vertices();
+        for (int f = 0; f < n; ++f)
+          for (const int side : Mesh::sides(f)) mesh_.side_from_[mesh_.from(side)] = side;
+      });
+  trace_hull();
   opposite_ = std::vector<int>();
-  halfedge_ = std::vector<int>();
-  mesh_.edge_constraint_.assign(n_edges, none);
-}
-
-// Along each side, in pairs; returns the sides that nothing lies across.
-std::vector<int> MeshBuilder::number_halfedges() {
-  std::vector<int> hull;
-  halfedge_.assign(opposite_.size(), none);
-  int n_edges = 0;
-  for (int s = 0; s < static_cast<int>(opposite_.size()); ++s) {
-    if (halfedge_[s] != none) continue;
-    halfedge_[s] = 2 * n_edges++;
-    if (opposite_[s] != none)
-      halfedge_[opposite_[s]] = halfedge_[s] + 1;
-    else
-      hull.push_back(s);
-  }
-  return hull;
 }
 
 void MeshBuilder::label_vertices() {
@@ -299,75 +275,65 @@ void MeshBuilder::label_vertices() {
   }
 }
 
-void MeshBuilder::link_face(int face) {
-  auto& topology = mesh_.topology_;
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeHandle side(halfedge_[3 * face + k]);
-    topology.set_face_handle(side, FaceHandle(face));
-    topology.set_vertex_handle(side, VertexHandle(mesh_.triangles_[face][(k + 1) % 3]));
-    topology.set_next_halfedge_handle(side, HalfedgeHandle(halfedge_[3 * face + (k + 1) % 3]));
-  }
-  topology.set_halfedge_handle(FaceHandle(face), HalfedgeHandle(halfedge_[3 * face]));
-}
-
-// The outer half-edges, one loop around the whole.
-void MeshBuilder::link_border(const std::vector<int>& sides) {
-  auto& topology = mesh_.topology_;
-  std::vector<std::pair<int, int>> leaving;  // vertex, outer half-edge that starts there
-  for (const int s : sides) {
-    const HalfedgeHandle outer(Mesh::opposite(halfedge_[s]));
-    const auto [a, b] = ends_of_side(mesh_.triangles_, s);
-    topology.set_vertex_handle(outer, VertexHandle(a));
-    topology.set_face_handle(outer, FaceHandle());
-    topology.set_halfedge_handle(VertexHandle(b), outer);
-    leaving.emplace_back(b, outer.idx());
-  }
+// One loop, from its lowest vertex on.
+void MeshBuilder::trace_hull() {
+  std::vector<std::pair<int, int>> leaving;  // vertex, side on the hull that starts there
+  for (int s = 0; s < static_cast<int>(opposite_.size()); ++s)
+    if (opposite_[s] == none)
+      leaving.emplace_back(ends_of_side(mesh_.triangles_, s)[0], Mesh::side(s / 3, s % 3));
   std::sort(leaving.begin(), leaving.end());
-  for (const int s : sides) {
-    const int a = ends_of_side(mesh_.triangles_, s)[0];
-    const auto following = std::lower_bound(leaving.begin(), leaving.end(), std::pair(a, 0));
-    topology.set_next_halfedge_handle(HalfedgeHandle(Mesh::opposite(halfedge_[s])),
-                                      HalfedgeHandle(following->second));
-  }
-  const int first = leaving.front().second;
-  int h = first;
+  const int first = leaving.front().first;
+  int v = first;
   do {
-    mesh_.hull_.push_back(mesh_.to(h));
-    h = mesh_.next(h);
-  } while (h != first && mesh_.hull_.size() <= sides.size());
-  std::reverse(mesh_.hull_.begin(), mesh_.hull_.end());  // outer half-edges run clockwise
+    mesh_.hull_.push_back(v);
+    v = mesh_.to(std::lower_bound(leaving.begin(), leaving.end(), std::pair(v, 0))->second);
+  } while (v != first && mesh_.hull_.size() <= leaving.size());
 }
 
-int MeshBuilder::label_beside(int halfedge) const {
-  const int f = mesh_.face_of(halfedge);
-  return f == none ? padding_label : mesh_.labels_[f];
+int MeshBuilder::label_beside(int side) const {
+  return side == none ? padding_label : mesh_.labels_[Mesh::face_of(side)];
 }
 
 void MeshBuilder::constrain() {
   mesh_.on_constraint_.assign(mesh_.n_vertices(), false);
   std::array<std::vector<int>, most_parts> interfaces;
-  parallel_parts(mesh_.n_edges(), grain, [&](int part, int begin, int end) {
-    for (int e = begin; e < end; ++e)
-      if (label_beside(2 * e) != label_beside(2 * e + 1)) interfaces[part].push_back(e);
+  parallel_parts(mesh_.n_faces(), grain, [&](int part, int begin, int end) {
+    for (int f = begin; f < end; ++f)
+      for (const int s : Mesh::sides(f))
+        if (mesh_.is_lower(s) && label_beside(s) != label_beside(mesh_.opposite(s)))
+          interfaces[part].push_back(s);
   });
-  for (const auto& edges : interfaces)
-    for (const int e : edges) constrain_edge(e, none);
+  for (const auto& sides : interfaces)
+    for (const int s : sides) constrain_edge(s, none);
   constrain_markers();
+  number_constraints();
   mesh_.label_names_ = data_.label_names;
 }
 
-void MeshBuilder::constrain_edge(int edge, int marker) {
-  if (const int known = mesh_.edge_constraint_[edge]; known != none) {
-    if (mesh_.constraints_[known].marker == none) mesh_.constraints_[known].marker = marker;
+void MeshBuilder::constrain_edge(int side, int marker) {
+  const auto [known, is_new] =
+      constraint_.try_emplace(mesh_.lower(side), static_cast<int>(mesh_.constraints_.size()));
+  if (!is_new) {
+    int& marker_there = mesh_.constraints_[known->second].marker;
+    if (marker_there == none) marker_there = marker;
     return;
   }
-  int h = 2 * edge;
-  if (label_beside(h) == padding_label) h = Mesh::opposite(h);  // the domain to the left
-  mesh_.edge_constraint_[edge] = static_cast<int>(mesh_.constraints_.size());
-  mesh_.constraints_.push_back(
-      {mesh_.from(h), mesh_.to(h), label_beside(h), label_beside(Mesh::opposite(h)), marker});
-  mesh_.on_constraint_[mesh_.from(h)] = true;
-  mesh_.on_constraint_[mesh_.to(h)] = true;
+  const int lower = mesh_.lower(side), across = mesh_.opposite(lower);
+  const bool is_turned = label_beside(lower) == padding_label && across != none;  // the domain to the left
+  const int left = is_turned ? across : lower, right = is_turned ? lower : across;
+  const int a = mesh_.from(left), b = mesh_.to(left);
+  mesh_.constraints_.push_back({a, b, label_beside(left), label_beside(right), marker});
+  mesh_.on_constraint_[a] = true;
+  mesh_.on_constraint_[b] = true;
+}
+
+void MeshBuilder::number_constraints() {
+  mesh_.side_of_constraint_.resize(mesh_.constraints_.size());
+  mesh_.constraint_at_.reset(mesh_.constraints_.size());
+  for (const auto& [side, number] : constraint_) {
+    mesh_.link(side, mesh_.word(side) | 1);
+    mesh_.remember_constraint(number, side);
+  }
 }
 
 // An edge that is there again has its constraint already.
@@ -379,10 +345,10 @@ void MeshBuilder::constrain_markers() {
     mesh_.marker_names_.push_back(marker.name);
     for (const auto& ends : marker.edges) {
       if (!seen.insert(key_of(ends)).second) continue;
-      const int edge = find_edge(ends[0], ends[1]);
-      if (edge == none)
+      const int side = find_edge(ends[0], ends[1]);
+      if (side == none)
         throw InputError("marker " + marker.name + ": " + name_of(ends) + " is not an edge of a face");
-      constrain_edge(edge, m);
+      constrain_edge(side, m);
     }
   }
 }
@@ -393,33 +359,22 @@ int MeshBuilder::find_edge(int user_a, int user_b) const {
   const int n = data_.n_vertices();
   if (user_a < 0 || user_a >= n || user_b < 0 || user_b >= n) return none;
   const int a = mesh_.vertex_of_user_[user_a], b = mesh_.vertex_of_user_[user_b];
-  const int first_a = mesh_.outgoing(a), first_b = mesh_.outgoing(b);
-  int from_a = first_a, from_b = first_b;
-  while (from_a != none) {
-    if (mesh_.to(from_a) == b && is_in_domain(from_a)) return Mesh::edge_of(from_a);
-    if (from_b != none && mesh_.to(from_b) == a && is_in_domain(from_b)) return Mesh::edge_of(from_b);
-    from_a = following(from_a, first_a);
-    from_b = following(from_b, first_b);
+  Spokes from_a(mesh_, a), from_b(mesh_, b);
+  for (; !from_a.is_done(); from_a.advance()) {
+    if (from_a.end() == b && is_in_domain(from_a.side())) return from_a.side();
+    if (from_b.is_done()) continue;
+    if (from_b.end() == a && is_in_domain(from_b.side())) return from_b.side();
+    from_b.advance();
   }
   return none;
 }
 
-// The next one that leaves the same vertex; none after the last.
-int MeshBuilder::following(int halfedge, int first) const {
-  if (halfedge == none) return none;
-  const int next = mesh_.next(Mesh::opposite(halfedge));
-  return next == first ? none : next;
-}
-
-bool MeshBuilder::is_in_domain(int halfedge) const {
-  const int f = mesh_.face_of(halfedge);
-  return mesh_.constraint_of(Mesh::edge_of(halfedge)) != none || (f != none && !mesh_.is_padding(f));
+bool MeshBuilder::is_in_domain(int side) const {
+  return constraint_.contains(mesh_.lower(side)) || label_beside(side) != padding_label;
 }
 
 Mesh build_mesh(const MeshData& data, const BuildOptions& options) {
-  Mesh mesh;
-  MeshBuilder(data, options, mesh).build();
-  return mesh;
+  return MeshBuilder(data, options).build();
 }
 
 }  // namespace kinemesh

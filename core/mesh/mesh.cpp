@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-namespace kinemesh {
+#include "core/mesh/patch.h"
 
-using OpenMesh::FaceHandle;
-using OpenMesh::HalfedgeHandle;
-using OpenMesh::VertexHandle;
+namespace kinemesh {
 
 std::vector<int> Mesh::faces_in_user_order() const {
   // Numbers of padding faces lie behind the user's unless faces have changed sides; bucket, then close the
@@ -42,64 +40,113 @@ MeshData Mesh::domain() const {
   return data;
 }
 
-void Mesh::splice(const Patch& patch) noexcept {
-  for (std::size_t j = 0; j < patch.edges.size(); ++j)
-    edge_constraint_[patch.edges[j]] = patch.constraints[j];
-  for (std::size_t i = 0; i < patch.faces.size(); ++i) {
+// Both ways. The word of a side on the hull leads nowhere, but says whether it is constrained.
+void Mesh::link(int side, int word) noexcept {
+  this->word(side) = word;
+  if (word >> 1 != none) this->word(word >> 1) = side << 1 | (word & 1);
+}
+
+void Mesh::forget_constraint(int number) noexcept {
+  const int side = side_of_constraint_[number];
+  if (constraint_at_.find(side) == number) constraint_at_.erase(side);
+}
+
+void Mesh::remember_constraint(int number, int side) noexcept {
+  side_of_constraint_[number] = lower(side);
+  constraint_at_.insert(lower(side), number);
+}
+
+// The border is read before anything is written: its sides may be sides of the new faces.
+void Mesh::splice(Patch& patch) noexcept {
+  const int n = static_cast<int>(patch.faces.size());
+  for (const auto& line : patch.lines) forget_constraint(line.constraint);
+  for (auto& across : patch.across)
+    for (int& side : across)
+      side = side < 0 ? word(~side) : Mesh::side(patch.faces[face_of(side)], corner_of(side)) << 1;
+  for (int i = 0; i < n; ++i) {
     const int face = patch.faces[i];
     n_user_faces_ += (patch.labels[i] != padding_label) - !is_padding(face);
     labels_[face] = patch.labels[i];
-    rewrite(face, patch.triangles[i], patch.halfedges[i]);
+    triangles_[face] = patch.triangles[i];
+    for (int k = 0; k < 3; ++k) {
+      side_from_[patch.triangles[i][k]] = side(face, k);
+      link(side(face, k), patch.across[i][k]);
+    }
   }
-  for (const auto& [vertex, halfedge] : patch.outgoing)
-    topology_.set_halfedge_handle(VertexHandle(vertex), HalfedgeHandle(halfedge));
+  for (const auto& [on, number] : patch.lines) {
+    const int side = Mesh::side(patch.faces[face_of(on)], corner_of(on));
+    link(side, word(side) | 1);
+    remember_constraint(number, side);
+  }
 }
 
-void Mesh::flip(int edge) noexcept {
-  const bool is_lower = face_of(2 * edge) < face_of(2 * edge + 1);
-  const int h = is_lower ? 2 * edge : 2 * edge + 1, o = opposite(h), left = face_of(h), right = face_of(o);
-  const int bc = next(h), ca = prev(h), ad = next(o), db = prev(o);
-  const int a = to(ca), b = to(db), c = to(bc), d = to(ad);
-  rewrite_from_lowest(left, {d, b, c}, {db, bc, h});
-  rewrite_from_lowest(right, {c, a, d}, {ca, ad, o});
-}
-
-void Mesh::rewrite_from_lowest(int face, Triangle corners, Triangle sides) noexcept {
-  const auto lowest = std::min_element(corners.begin(), corners.end()) - corners.begin();
+// From its lowest corner on. Returns where side 0 has gone.
+int Mesh::rewrite_from_lowest(int face, Triangle corners) noexcept {
+  const int lowest = static_cast<int>(std::min_element(corners.begin(), corners.end()) - corners.begin());
   std::rotate(corners.begin(), corners.begin() + lowest, corners.end());
-  std::rotate(sides.begin(), sides.begin() + lowest, sides.end());
-  rewrite(face, corners, sides);
-}
-
-void Mesh::rewrite(int face, const Triangle& corners, const Triangle& sides) noexcept {
   triangles_[face] = corners;
-  topology_.set_halfedge_handle(FaceHandle(face), HalfedgeHandle(sides[0]));
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeHandle side(sides[k]);
-    topology_.set_face_handle(side, FaceHandle(face));
-    topology_.set_vertex_handle(side, VertexHandle(corners[(k + 1) % 3]));
-    topology_.set_next_halfedge_handle(side, HalfedgeHandle(sides[(k + 1) % 3]));
-    // A vertex of the mesh's border keeps pointing along it, as OpenMesh expects.
-    const VertexHandle corner(corners[k]);
-    if (face_of(outgoing(corner.idx())) != none) topology_.set_halfedge_handle(corner, side);
-  }
+  for (int k = 0; k < 3; ++k) side_from_[corners[k]] = side(face, k);
+  return side(face, (3 - lowest) % 3);
 }
 
-Patch Mesh::inverse_of(const Patch& patch) const {
-  Patch inverse{.faces = patch.faces,
-                .triangles = {},
-                .labels = {},
-                .halfedges = {},
-                .edges = patch.edges,
-                .constraints = {}};
-  for (const int face : patch.faces) {
-    inverse.triangles.push_back(triangles_[face]);
-    inverse.labels.push_back(labels_[face]);
-    inverse.halfedges.push_back(sides(face));
-    for (const int v : triangles_[face]) inverse.outgoing.push_back({v, outgoing(v)});
+void Mesh::flip(int side) noexcept {
+  const int h = lower(side), o = opposite(h);
+  const int a = from(h), b = to(h), c = apex(h), d = apex(o);
+  const std::array<int, 4> outer{prev(o), next(h), prev(h), next(o)};  // db, bc, ca, ad
+  std::array<int, 4> words, numbers;
+  for (int i = 0; i < 4; ++i) {
+    words[i] = word(outer[i]);
+    numbers[i] = constraint_of(outer[i]);
   }
-  for (const int edge : patch.edges) inverse.constraints.push_back(edge_constraint_[edge]);
-  return inverse;
+  for (const int number : numbers)
+    if (number != none) forget_constraint(number);
+  const int db = rewrite_from_lowest(face_of(h), {d, b, c}), ca = rewrite_from_lowest(face_of(o), {c, a, d});
+  const std::array<int, 4> now{db, next(db), ca, next(ca)};
+  for (int i = 0; i < 4; ++i) link(now[i], words[i]);
+  link(prev(db), prev(ca) << 1);
+  for (int i = 0; i < 4; ++i)
+    if (numbers[i] != none) remember_constraint(numbers[i], now[i]);
+}
+
+FaceState Mesh::save(int face) const {
+  FaceState state{face, labels_[face], triangles_[face], across_[face], {}};
+  for (int k = 0; k < 3; ++k) state.constraints[k] = constraint_of(side(face, k));
+  return state;
+}
+
+// The oldest come last. What a state says of its neighbours holds once these have been written, too: a face that is not
+// restored has not changed.
+template <class At>
+void Mesh::restore(std::size_t n, const At& at) noexcept {
+  const auto for_each_line = [&](const auto& visit) {
+    for (std::size_t i = n; i-- > 0;)
+      for (int k = 0; k < 3; ++k)
+        if (at(i).constraints[k] != none) visit(at(i).constraints[k], side(at(i).face, k));
+  };
+  for_each_line([&](int number, int) { forget_constraint(number); });
+  for (std::size_t i = n; i-- > 0;) {
+    const auto& [face, label, corners, across, constraints] = at(i);
+    n_user_faces_ += (label != padding_label) - !is_padding(face);
+    labels_[face] = label;
+    triangles_[face] = corners;
+    for (int k = 0; k < 3; ++k) {
+      side_from_[corners[k]] = side(face, k);
+      link(side(face, k), across[k]);
+    }
+  }
+  for_each_line([&](int number, int side) { side_of_constraint_[number] = lower(side); });
+  for_each_line([&](int number, int) {
+    const int side = side_of_constraint_[number];
+    if (constraint_at_.find(side) != number) constraint_at_.insert(side, number);
+  });
+}
+
+void Mesh::restore(std::span<const FaceState> saved) noexcept {
+  restore(saved.size(), [&](std::size_t i) -> const FaceState& { return saved[i]; });
+}
+
+void Mesh::restore(std::span<const FaceState> saved, std::span<const int> places) noexcept {
+  restore(places.size(), [&](std::size_t i) -> const FaceState& { return saved[places[i]]; });
 }
 
 }  // namespace kinemesh

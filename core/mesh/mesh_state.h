@@ -21,11 +21,10 @@ struct MeshOrigin {
 // What has become of it since: all that moving, repairs and flips change.
 struct MeshState {
   std::vector<Point> positions;       // per vertex
-  std::vector<int> outgoing;          // per vertex
   std::vector<Triangle> triangles;    // per face: its corners
-  std::vector<Triangle> sides;        // per face: its half-edges, side k from corner k on
+  std::vector<Triangle> across;       // per face: the sides opposite its sides
   std::vector<int> labels;            // per face
-  std::vector<int> edge_constraints;  // per edge: constraint_of()
+  std::vector<int> constraint_sides;  // per constraint: a side on its edge
 };
 
 // Pre: the mesh is as build_mesh made it.

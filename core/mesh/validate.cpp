@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "core/mesh/around.h"
 #include "kinemesh/predicates.h"
 
 namespace kinemesh {
@@ -33,12 +34,12 @@ Found first_among(int n, const Check& check) {
 }
 
 Found check_face(const Mesh& mesh, int f) {
-  const auto sides = mesh.sides(f);
-  for (int k = 0; k < 3; ++k) {
-    const int h = sides[k], following = sides[(k + 1) % 3];
-    const bool good = mesh.face_of(h) == f && mesh.next(h) == following && mesh.prev(following) == h &&
-                      mesh.from(h) == mesh.triangles()[f][k] && mesh.to(h) == mesh.from(following);
-    if (!good) return broken("half-edges and mirror differ at face " + number(f));
+  for (const int side : Mesh::sides(f)) {
+    const int across = mesh.opposite(side);
+    if (across == none) continue;
+    const bool good = mesh.opposite(across) == side && mesh.from(across) == mesh.to(side) &&
+                      mesh.to(across) == mesh.from(side) && across != side;
+    if (!good) return broken("the sides of an edge differ at face " + number(f));
   }
   return std::nullopt;
 }
@@ -47,26 +48,27 @@ Found check_faces(const Mesh& mesh) {
   return first_among(mesh.n_faces(), [&](int f) { return check_face(mesh, f); });
 }
 
-// The half-edges that leave a vertex form one cycle.
+// The sides that start at a vertex form one fan.
 Found check_fan(const Mesh& mesh, int v, int degree) {
-  if (mesh.is_isolated(v)) return std::nullopt;
-  const int first = mesh.outgoing(v);
-  int h = first, seen = 0;
-  do {
-    if (mesh.from(h) != v)
-      return broken("a half-edge has strayed from vertex " + number(mesh.user_vertex(v)));
-    h = mesh.next(Mesh::opposite(h));
+  if (mesh.is_isolated(v)) return degree == 0 ? std::nullopt : broken("a side has lost its vertex");
+  int seen = 0;
+  bool has_strayed = false;
+  for_each_side_from(mesh, v, [&](int side) {
+    has_strayed |= mesh.from(side) != v;
     ++seen;
-  } while (h != first && seen <= degree);
+  });
+  if (has_strayed) return broken("a side has strayed from vertex " + number(mesh.user_vertex(v)));
   if (seen == degree) return std::nullopt;
   return Defect{
       .kind = DefectKind::NotPlanar,
       .detail = "the faces around vertex " + number(mesh.user_vertex(v)) + " form more than one fan"};
 }
 
+// After check_faces: each side has at most one before it and one behind it around its vertex, so that going around ends.
 Found check_fans(const Mesh& mesh) {
   std::vector<int> degree(mesh.n_vertices(), 0);
-  for (int h = 0; h < 2 * mesh.n_edges(); ++h) ++degree[mesh.from(h)];
+  for (const Triangle& corners : mesh.triangles())
+    for (const int v : corners) ++degree[v];
   return first_among(mesh.n_vertices(), [&](int v) { return check_fan(mesh, v, degree[v]); });
 }
 
@@ -96,10 +98,9 @@ class Parts {
 
 bool is_connected(const Mesh& mesh) {
   Parts parts(mesh.n_faces());
-  for (int e = 0; e < mesh.n_edges(); ++e) {
-    const int f = mesh.face_of(2 * e), g = mesh.face_of(2 * e + 1);
-    if (f != none && g != none) parts.join(f, g);
-  }
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    for (const int side : Mesh::sides(f))
+      if (const int g = mesh.face_across(side); g > f) parts.join(f, g);
   return parts.count() == 1;
 }
 
@@ -109,7 +110,8 @@ Found check_disc(const Mesh& mesh) {
     return Defect{.kind = DefectKind::NotPlanar, .detail = "the padded mesh is not connected"};
   int vertices = 0, outer = 0;
   for (int v = 0; v < mesh.n_vertices(); ++v) vertices += !mesh.is_isolated(v);
-  for (int h = 0; h < 2 * mesh.n_edges(); ++h) outer += mesh.face_of(h) == none;
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    for (const int side : Mesh::sides(f)) outer += mesh.opposite(side) == none;
   if (outer != static_cast<int>(mesh.hull().size())) {
     return Defect{.kind = DefectKind::NotPlanar, .detail = "the padded mesh has more than one border loop"};
   }
@@ -131,35 +133,42 @@ Found check_numbering(const Mesh& mesh) {
   return std::nullopt;
 }
 
-int label_beside(const Mesh& mesh, int h) {
-  const int f = mesh.face_of(h);
-  return f == none ? padding_label : mesh.label(f);
+int label_beside(const Mesh& mesh, int side) {
+  return side == none ? padding_label : mesh.label(Mesh::face_of(side));
 }
 
 // Each constraint is one edge with its labels, and no other edge lies between two labels.
 Found check_constraints(const Mesh& mesh) {
-  std::vector<int> edge_of(mesh.constraints().size(), none);
-  for (int e = 0; e < mesh.n_edges(); ++e) {
-    const int c = mesh.constraint_of(e);
-    if (c != none)
-      edge_of[c] = e;
-    else if (label_beside(mesh, 2 * e) != label_beside(mesh, 2 * e + 1)) {
-      return broken("two labels meet at an edge that is not constrained");
+  std::vector<int> side_of(mesh.constraints().size(), none);
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    for (const int side : Mesh::sides(f)) {
+      const int across = mesh.opposite(side);
+      if (mesh.has_constraint(side)) {
+        if (across != none && !mesh.has_constraint(across))
+          return broken("an edge is constrained on one side only");
+        const int number = mesh.constraint_of(side);
+        if (number == none) return broken("a constrained edge has no constraint");
+        side_of[number] = side;
+      } else if (label_beside(mesh, side) != label_beside(mesh, across)) {
+        return broken("two labels meet at an edge that is not constrained");
+      }
     }
   }
-  for (std::size_t i = 0; i < edge_of.size(); ++i) {
+  for (std::size_t i = 0; i < side_of.size(); ++i) {
     const auto& c = mesh.constraints()[i];
     const Edge ends{mesh.user_vertex(c.from), mesh.user_vertex(c.to)};
     const auto missing = [&](const char* why) {
       return Defect{
           .kind = DefectKind::MissingEdge, .edges = {ends}, .where = mesh.position(c.from), .detail = why};
     };
-    if (edge_of[i] == none) return missing("");
-    const int h = mesh.from(2 * edge_of[i]) == c.from ? 2 * edge_of[i] : 2 * edge_of[i] + 1;
-    if (mesh.from(h) != c.from || mesh.to(h) != c.to) return missing("its place is taken");
-    if (label_beside(mesh, h) != c.left || label_beside(mesh, Mesh::opposite(h)) != c.right) {
+    const int side = side_of[i];
+    if (side == none) return missing("");
+    const bool is_along = mesh.from(side) == c.from && mesh.to(side) == c.to;
+    if (!is_along && (mesh.from(side) != c.to || mesh.to(side) != c.from))
+      return missing("its place is taken");
+    const int left = is_along ? side : mesh.opposite(side), right = is_along ? mesh.opposite(side) : side;
+    if (label_beside(mesh, left) != c.left || label_beside(mesh, right) != c.right)
       return missing("its labels have changed");
-    }
   }
   return std::nullopt;
 }

@@ -65,11 +65,7 @@ class DelaunayFlipping {
   LocalUntangling untangler_;
 };
 
-// Each edge of these faces once, by its side in the lower of its faces; ascending. Side 4 f + k is that of face f from
-// corner k to corner k + 1.
+// Each edge of these faces once, by the side in the lower of its faces; ascending.
 std::vector<int> sides_of(const Mesh& mesh, std::span<const int> faces);
-
-// The edges of these faces, ascending.
-std::vector<int> edges_of(const Mesh& mesh, std::span<const int> faces);
 
 }  // namespace kinemesh

@@ -1,4 +1,8 @@
-// The kinetic mesh: connectivity (OpenMesh half-edges) apart from positions, and a flat mirror of the faces.
+// The kinetic mesh: positions, and a corner table.
+//
+// A side is one face's share of an edge: side 4 f + k runs along face f from its corner k to the next one. The table
+// holds three corners per face and, per side, the side of another face on the same edge. Two sides may have the same
+// ends and be of different edges.
 //
 // The domain the user gave is embedded in padding: faces that fill its holes and the space up to its convex
 // hull or to a rectangular frame, so that the whole is a disc with convex border [Agarwal 2008, §1, boundary
@@ -6,12 +10,13 @@
 // inverses translate. Build one with build_mesh (kinemesh/build.h).
 #pragma once
 
-#include <OpenMesh/Core/Mesh/TriConnectivity.hh>
+#include <array>
 #include <map>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/mesh/side_numbers.h"
 #include "kinemesh/mesh_data.h"
 #include "kinemesh/types.h"
 
@@ -27,26 +32,20 @@ struct Constraint {
   bool is_border() const { return (left == padding_label) != (right == padding_label); }
 };
 
-// New faces for some of a mesh's, ready to take their place (Mesh::splice). Sides run from corner k to corner
-// k + 1.
-struct Patch {
-  std::vector<int> faces;           // the faces to rewrite
-  std::vector<Triangle> triangles;  // as many; triangle i is written to faces[i]
-  std::vector<int> labels;          // one per triangle
-  std::vector<Triangle> halfedges;  // along side k of triangle i, the triangle to its left
-  std::vector<int> edges;           // the edges between two of the faces, ascending
-  std::vector<int> constraints;     // what becomes of edges[j]: number of a constraint, or none
-  std::vector<Edge> outgoing{};     // vertices and the half-edges where their fans are to start; may be empty
+struct Patch;  // core/mesh/patch.h
+
+// A face of a mesh as it was: Mesh::save.
+struct FaceState {
+  int face = none, label = 0;
+  Triangle corners{}, across{}, constraints{};
 };
 
 class Mesh {
  public:
-  using Connectivity = OpenMesh::TriConnectivity;
-
   // Sizes, padding included.
   int n_vertices() const { return static_cast<int>(positions_.size()); }
   int n_faces() const { return static_cast<int>(triangles_.size()); }
-  int n_edges() const { return static_cast<int>(edge_constraint_.size()); }
+  int n_edges() const { return (3 * n_faces() + static_cast<int>(hull_.size())) / 2; }
 
   // Sizes of what the user gave; faces of the domain become more or fewer only when vertices escape.
   int n_user_vertices() const { return n_user_vertices_; }
@@ -58,7 +57,7 @@ class Mesh {
   const Point& position(int vertex) const { return positions_[vertex]; }
   void swap_positions(std::vector<Point>& positions) noexcept { positions_.swap(positions); }
 
-  // Faces. Corner 0 is where halfedge_of(face) starts.
+  // Faces.
   std::span<const Triangle> triangles() const { return triangles_; }
   std::array<Point, 3> corners(int face) const {
     const auto& t = triangles_[face];
@@ -67,31 +66,36 @@ class Mesh {
   int label(int face) const { return labels_[face]; }
   bool is_padding(int face) const { return labels_[face] == padding_label; }
 
-  // Half-edges: 2e and 2e+1 are the two sides of edge e; the face lies to the left.
-  static int opposite(int h) { return h ^ 1; }
-  static int edge_of(int h) { return h >> 1; }
-  int halfedge_of(int face) const { return topology_.halfedge_handle(OpenMesh::FaceHandle(face)).idx(); }
-  int outgoing(int vertex) const {  // or none
-    return topology_.halfedge_handle(OpenMesh::VertexHandle(vertex)).idx();
+  // Sides. The face of none is none.
+  static constexpr int side(int face, int k) { return face << 2 | k; }
+  static constexpr int face_of(int side) { return side >> 2; }
+  static constexpr int corner_of(int side) { return side & 3; }
+  static constexpr int next(int side) { return (side & 3) == 2 ? side - 2 : side + 1; }
+  static constexpr int prev(int side) { return (side & 3) == 0 ? side + 2 : side - 1; }
+  static constexpr Triangle sides(int face) { return {face << 2, face << 2 | 1, face << 2 | 2}; }
+  int opposite(int side) const { return across_[face_of(side)][corner_of(side)] >> 1; }  // none on the hull
+  int face_across(int side) const { return face_of(opposite(side)); }
+  int from(int side) const { return triangles_[face_of(side)][corner_of(side)]; }
+  int to(int side) const { return from(next(side)); }
+  int apex(int side) const { return from(prev(side)); }           // the corner that is not on it
+  int side_from(int vertex) const { return side_from_[vertex]; }  // one that starts there; none if isolated
+  bool is_isolated(int vertex) const { return side_from_[vertex] == none; }
+  // Of the two sides of an edge the one with the smaller number.
+  int lower(int side) const {
+    const int across = opposite(side);
+    return across != none && across < side ? across : side;
   }
-  int next(int h) const { return topology_.next_halfedge_handle(OpenMesh::HalfedgeHandle(h)).idx(); }
-  int prev(int h) const { return topology_.prev_halfedge_handle(OpenMesh::HalfedgeHandle(h)).idx(); }
-  int face_of(int h) const {  // none outside
-    return topology_.face_handle(OpenMesh::HalfedgeHandle(h)).idx();
+  bool is_lower(int side) const { return lower(side) == side; }
+  // Asks for what the functions above read of a face, ahead of time.
+  void fetch(int face) const {
+    __builtin_prefetch(&triangles_[face]);
+    __builtin_prefetch(&across_[face]);
   }
-  int to(int h) const { return topology_.to_vertex_handle(OpenMesh::HalfedgeHandle(h)).idx(); }
-  int from(int h) const { return to(opposite(h)); }
-  bool is_isolated(int vertex) const { return outgoing(vertex) == none; }
-  // The half-edges along the sides of a face, from corner 0 on.
-  Triangle sides(int face) const {
-    const int h = halfedge_of(face);
-    return {h, next(h), prev(h)};
-  }
-  const Connectivity& connectivity() const { return topology_; }
 
-  // Constrained edges. constraint_of(edge) is a number in constraints(), or none.
+  // Constrained edges. constraint_of(side) is a number in constraints(), or none.
   std::span<const Constraint> constraints() const { return constraints_; }
-  int constraint_of(int edge) const { return edge_constraint_[edge]; }
+  bool has_constraint(int side) const { return (across_[face_of(side)][corner_of(side)] & 1) != 0; }
+  int constraint_of(int side) const { return has_constraint(side) ? constraint_at_.find(lower(side)) : none; }
   bool is_constrained(int vertex) const { return on_constraint_[vertex]; }  // an end of a constrained edge
   // Around a vertex on no constrained edge, when built.
   int home_label(int vertex) const { return home_label_[vertex]; }
@@ -115,46 +119,56 @@ class Mesh {
   std::vector<Point> in_user_order(std::span<const Point> positions) const;  // given in the mesh's order
   MeshData domain() const;  // everything the user gave, as it is now
 
-  // Rewrites patch.faces in place, re-using their handles and those of the edges between them; nothing else
-  // changes. Pre: the patch covers the same vertices and has the same border as its faces. Cost: O(patch).
-  void splice(const Patch& patch) noexcept;
-
-  // The patch that takes this one back, bit for bit: to be asked for before it is spliced.
-  Patch inverse_of(const Patch& patch) const;
-
   // An unconstrained edge inside the padded mesh: both its faces have the same label.
-  bool is_flippable(int edge) const {
-    return edge_constraint_[edge] == none && face_of(2 * edge) != none && face_of(2 * edge + 1) != none;
-  }
+  bool is_flippable(int side) const { return !has_constraint(side) && opposite(side) != none; }
 
-  // Turns an edge between two faces into their other diagonal, re-using its handle and theirs. The half-edge along
-  // the lower face, here abc, goes from c to d then, with face dbc to its left. Both faces start at their lowest
-  // corner. Nothing else changes. Pre: is_flippable(edge), c != d.
+  // Turns an edge between two faces into their other diagonal, within the same two faces. Of side a -> b of the lower
+  // face that one becomes dbc; both start at their lowest corner. Nothing else changes. Pre: is_flippable(side),
+  // c != d.
   //      c             c
   //    /   \         / | \       .
   //   a --> b  ->   a  |  b
-  //    \   /         \ v /
+  //    \   /         \ | /
   //      d             d
-  void flip(int edge) noexcept;
+  void flip(int side) noexcept;
+
+  // Rewrites patch.faces in place; nothing else changes. Uses the patch up. Pre: the patch covers the same vertices and
+  // has the same border as its faces. Cost: O(patch). Takes no memory.
+  void splice(Patch& patch) noexcept;
+
+  // A face as it is, and back again: all that have changed since they were saved, at once; of a face that was saved more
+  // than once the first is what counts. Bit for bit, but for which side side_from names. Takes no memory.
+  FaceState save(int face) const;
+  void restore(std::span<const FaceState> saved) noexcept;
+  void restore(std::span<const FaceState> saved,
+               std::span<const int> places) noexcept;  // saved[i] for all i in places
 
  private:
   friend class MeshBuilder;
 
-  void rewrite(int face, const Triangle& corners, const Triangle& sides) noexcept;
-  void rewrite_from_lowest(int face, Triangle corners, Triangle sides) noexcept;
+  int& word(int side) { return across_[face_of(side)][corner_of(side)]; }
+  void link(int side, int word) noexcept;
+  int rewrite_from_lowest(int face, Triangle corners) noexcept;
+  template <class At>
+  void restore(std::size_t n, const At& at) noexcept;
+  void forget_constraint(int number) noexcept;
+  void remember_constraint(int number, int side) noexcept;
 
-  Connectivity topology_;
   std::vector<Point> positions_;
-  std::vector<Triangle> triangles_;  // mirror of topology_
-  std::vector<int> labels_;          // per face
+  std::vector<Triangle> triangles_;
+  std::vector<Triangle>
+      across_;                  // per side: 2 s for the side s on the same edge, plus 1 if it is constrained
+  std::vector<int> side_from_;  // per vertex
+  std::vector<int> labels_;     // per face
   std::vector<int> user_face_;  // per face; padding faces have numbers from the number of the user's faces on
   std::vector<int> user_vertex_;  // per vertex
   std::vector<int> vertex_of_user_;
   std::vector<Constraint> constraints_;
-  std::vector<int> edge_constraint_;  // per edge
-  std::vector<bool> on_constraint_;   // per vertex
-  std::vector<bool> fixed_;           // per vertex
-  std::vector<int> home_label_;       // per vertex
+  std::vector<int> side_of_constraint_;  // the lower one
+  SideNumbers constraint_at_;            // and back
+  std::vector<bool> on_constraint_;      // per vertex
+  std::vector<bool> fixed_;              // per vertex
+  std::vector<int> home_label_;          // per vertex
   std::vector<int> hull_;
   std::vector<int> frame_;
   double frame_margin_ = 0.0;

@@ -8,25 +8,23 @@
 namespace kinemesh {
 namespace {
 
-int domain_face(const Mesh& mesh, int halfedge) {
-  const int face = mesh.face_of(halfedge);
-  return face == none || mesh.is_padding(face) ? none : face;
+bool is_of_domain(const Mesh& mesh, int face) {
+  return face != none && !mesh.is_padding(face);
 }
 
 // Calls visit(neighbour, face to the left of the way there, or none) counter-clockwise around a vertex, for
 // all neighbours in a face of the domain.
 template <class Visit>
 void for_each_slot(const Mesh& mesh, int vertex, const Visit& visit) {
-  if (mesh.is_isolated(vertex)) return;
-  const int first = start_of_fan(mesh, vertex);
-  int right = domain_face(mesh, Mesh::opposite(first));
-  int h = first;
-  do {
-    const int left = domain_face(mesh, h);
-    if (left != none || right != none) visit(mesh.to(h), left);
-    right = left;
-    h = Mesh::opposite(mesh.prev(h));
-  } while (h != first);
+  for_each_neighbour(mesh, vertex, [&](int neighbour, int side) {
+    const bool starts_here = mesh.from(side) == vertex;
+    const int left = starts_here ? Mesh::face_of(side) : mesh.face_across(side);
+    const int right = starts_here ? mesh.face_across(side) : Mesh::face_of(side);
+    if (is_of_domain(mesh, left))
+      visit(neighbour, left);
+    else if (is_of_domain(mesh, right))
+      visit(neighbour, none);
+  });
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class Overlay {
     for (const int face : faces) boxes.push_back(box_of(mesh.corners(face)));
     faces_tree_.build(boxes);
     for (const int face : faces)
-      for (const int side : mesh.sides(face)) edges_.push_back(Mesh::edge_of(side));
+      for (const int side : mesh.sides(face)) edges_.push_back(mesh.lower(side));
     std::sort(edges_.begin(), edges_.end());
     edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
     boxes.clear();
@@ -47,7 +47,9 @@ class Overlay {
   }
 
  private:
-  const Point& end(int edge, int which) const { return mesh_.position(mesh_.to(2 * edge + which)); }
+  const Point& end(int edge, int which) const {
+    return mesh_.position(which == 0 ? mesh_.from(edge) : mesh_.to(edge));
+  }
   bool holds(int face) const { return std::binary_search(faces_.begin(), faces_.end(), face); }
   Orientation turn(int face) const {
     const auto [a, b, c] = mesh_.corners(face);

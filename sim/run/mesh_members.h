@@ -27,8 +27,7 @@ void members(Archive& archive, S& origin) {
 template <class Archive, class S>
 requires binary::Is<S, MeshState>
 void members(Archive& archive, S& state) {
-  archive(state.positions, state.outgoing, state.triangles, state.sides, state.labels,
-          state.edge_constraints);
+  archive(state.positions, state.triangles, state.across, state.labels, state.constraint_sides);
 }
 
 }  // namespace kinemesh

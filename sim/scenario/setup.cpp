@@ -207,12 +207,12 @@ Where where_of(const Scenario& scenario, std::string_view key) {
 // The first vertex of the convex hull that may leave it: one that moves freely, or slides along a slanted
 // line, where rounding takes it off the line. Along x or y it stays exactly.
 std::optional<int> leaving_hull_vertex(const Mesh& mesh, const Freedom& freedom) {
-  for (int h = 0; h < 2 * mesh.n_edges(); ++h)
-    if (const int v = mesh.to(h);
-        mesh.face_of(h) == none && (freedom.of(v) == BorderCondition::Moving ||
-                                    freedom.allowed(v, mesh.position(v), {1.0, 0.0}).y != 0.0))
-      return v;
-  return std::nullopt;
+  const auto leaves = [&](int v) {
+    return freedom.of(v) == BorderCondition::Moving ||
+           freedom.allowed(v, mesh.position(v), {1.0, 0.0}).y != 0.0;
+  };
+  const auto found = std::ranges::find_if(mesh.hull(), leaves);
+  return found == mesh.hull().end() ? std::nullopt : std::optional(*found);
 }
 
 void require_still_hull(const Scenario& scenario, const Mesh& mesh, const BorderConditions& border) {

@@ -59,26 +59,16 @@ void finish(ChangedPatch& patch) {
 
 ChangeTracker::ChangeTracker(const Mesh& mesh)
     : faces_(mesh.n_faces()),
-      constraint_(mesh.n_edges()),
-      outgoing_(mesh.n_vertices()),
+      user_face_(mesh.n_faces()),
       slot_(mesh.n_faces(), none),
-      is_flipped_(mesh.n_faces(), false),
-      one_{.faces = {0},
-           .triangles = {{}},
-           .labels = {0},
-           .halfedges = {{}},
-           .edges = {0, 0, 0},
-           .constraints = {0, 0, 0},
-           .outgoing = {3, Edge{}}} {
+      is_flipped_(mesh.n_faces(), false) {
   changed_.reserve(mesh.n_faces());
   for (int face = 0; face < mesh.n_faces(); ++face) copy_face(mesh, face);
 }
 
 void ChangeTracker::copy_face(const Mesh& mesh, int face) noexcept {
-  const Triangle sides = mesh.sides(face);
-  faces_[face] = {mesh.triangles()[face], sides, mesh.label(face), mesh.user_face(face)};
-  for (const int side : sides) constraint_[Mesh::edge_of(side)] = mesh.constraint_of(Mesh::edge_of(side));
-  for (const int v : faces_[face].corners) outgoing_[v] = mesh.outgoing(v);
+  faces_[face] = mesh.save(face);
+  user_face_[face] = mesh.user_face(face);
 }
 
 void ChangeTracker::note(std::span<const RegionRecord> regions, std::span<const int> flipped) noexcept {
@@ -104,22 +94,8 @@ void ChangeTracker::accept(const Mesh& mesh) noexcept {
   forget();
 }
 
-// Rewriting a face may move where the fans of its corners start: these are set each time, and so are right in
-// the end.
 void ChangeTracker::take_back(Mesh& mesh) noexcept {
-  for (const int face : changed_) {
-    const auto& old = faces_[face];
-    one_.faces[0] = face;
-    one_.triangles[0] = old.corners;
-    one_.labels[0] = old.label;
-    one_.halfedges[0] = old.sides;
-    for (int k = 0; k < 3; ++k) {
-      one_.edges[k] = Mesh::edge_of(old.sides[k]);
-      one_.constraints[k] = constraint_[one_.edges[k]];
-      one_.outgoing[k] = {old.corners[k], outgoing_[old.corners[k]]};
-    }
-    mesh.splice(one_);
-  }
+  mesh.restore(faces_, changed_);
   forget();
 }
 
@@ -156,7 +132,7 @@ std::vector<int> ChangeTracker::patch_numbers(const Mesh& mesh, std::span<const 
   for (const int face : changed_) {
     if (!is_flipped_[face]) continue;
     for (const int side : mesh.sides(face)) {
-      const int across = mesh.face_of(Mesh::opposite(side));
+      const int across = mesh.face_across(side);
       if (across != none && slot_[across] != none) sets.join(slot_[face], slot_[across]);
     }
   }
@@ -176,7 +152,7 @@ FaceChange ChangeTracker::change_of(const Mesh& mesh, int face) const {
   };
   const auto& old = faces_[face];
   const int number = mesh.user_face(face);
-  return {.face = number != none ? number : old.user_face,
+  return {.face = number != none ? number : user_face_[face],
           .before = in_users(old.corners),
           .after = in_users(mesh.triangles()[face]),
           .label_before = old.label,

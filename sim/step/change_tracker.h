@@ -11,8 +11,8 @@
 
 namespace kinemesh {
 
-// Holds a copy of faces, labels and half-edges, 50 bytes a face, and keeps it up to date at a cost that
-// follows what changes. Works for whatever rewrites faces, if it says which.
+// Holds a copy of all faces, 48 bytes each, and keeps it up to date at a cost that follows what changes. Works for
+// whatever rewrites faces, if it says which.
 class ChangeTracker {
  public:
   explicit ChangeTracker(const Mesh& mesh);
@@ -28,24 +28,17 @@ class ChangeTracker {
   void take_back(Mesh& mesh) noexcept;     // the mesh goes back to the copy, bit for bit, positions apart
 
  private:
-  struct Face {
-    Triangle corners, sides;
-    int label, user_face;
-  };
-
   void note(int face, bool is_flipped) noexcept;
   void forget() noexcept;
   void copy_face(const Mesh& mesh, int face) noexcept;
   std::vector<int> patch_numbers(const Mesh& mesh, std::span<const RegionRecord> regions) const;
   FaceChange change_of(const Mesh& mesh, int face) const;
 
-  std::vector<Face> faces_;
-  std::vector<int> constraint_;   // per edge
-  std::vector<int> outgoing_;     // per vertex
+  std::vector<FaceState> faces_;
+  std::vector<int> user_face_;    // per face
   std::vector<int> changed_;      // faces; has room for all
   std::vector<int> slot_;         // per face: where in changed_, or none
   std::vector<char> is_flipped_;  // per face
-  Patch one_;                     // a face on its way back
 };
 
 }  // namespace kinemesh

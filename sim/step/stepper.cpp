@@ -232,8 +232,9 @@ void Stepper::outdate_repaired(const RepairRecord& record) {
 void Stepper::outdate_improved() {
   minima_.outdate(quality_->flipped_faces());
   for (const auto& [vertex, before] : quality_->moved_vertices()) {
-    for_each_outgoing(mesh_, vertex, [&](int h) {
-      if (const int face = mesh_.face_of(h); face != none) minima_.outdate({&face, 1});
+    for_each_side_from(mesh_, vertex, [&](int side) {
+      const int face = Mesh::face_of(side);
+      minima_.outdate({&face, 1});
     });
   }
 }

@@ -59,7 +59,7 @@ Snapshot snapshot(const Mesh& mesh) {
   s.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
   for (int f = 0; f < mesh.n_faces(); ++f) s.labels.push_back(mesh.label(f));
   for (int h = 0; h < 2 * mesh.n_edges(); ++h)
-    for (const int link : {mesh.next(h), mesh.to(h), mesh.face_of(h), mesh.constraint_of(Mesh::edge_of(h))})
+    for (const int link : {mesh.next(h), mesh.to(h), mesh.face_of(h), mesh.constraint_of(h)})
       s.halfedges.push_back(link);
   for (int f = 0; f < mesh.n_faces(); ++f)
     for (const int link : {mesh.halfedge_of(f), mesh.user_face(f)}) s.faces.push_back(link);

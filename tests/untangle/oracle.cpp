@@ -124,7 +124,7 @@ std::vector<std::vector<int>> classes(const Mesh& mesh, const std::vector<int>& 
   };
   for (const int f : faces) {
     for (const int h : mesh.sides(f)) {
-      const int g = mesh.face_of(Mesh::opposite(h));
+      const int g = mesh.face_across(h);
       if (g == none || parent[g] == none || g < f || !joined(h)) continue;
       const auto [low, high] = std::minmax({root(f), root(g)});
       parent[high] = low;
@@ -173,7 +173,7 @@ std::vector<std::vector<int>> conflict_pieces(const Mesh& mesh) {
     if (is_conflicting(f)) conflict_set.push_back(f);
   }
   return classes(mesh, conflict_set, [&](int h) {
-    const int left = mesh.face_of(h), right = mesh.face_of(Mesh::opposite(h));
+    const int left = mesh.face_of(h), right = mesh.face_across(h);
     if (shadows[left].sign < 0 || shadows[right].sign < 0) return true;
     const Grid &a = shadows.place(mesh.from(h)), &b = shadows.place(mesh.to(h));
     return std::any_of(seeds.begin(), seeds.end(), [&](int s) { return meets_interior(a, b, shadows[s]); });

@@ -94,7 +94,7 @@ RegionCounts count(const Mesh& mesh, const std::vector<int>& faces) {
       counts.seed = user;
     counts.inverted += inverted.contains(f);
     for (const int h : mesh.sides(f)) {
-      const int across = mesh.face_of(Mesh::opposite(h));
+      const int across = mesh.face_across(h);
       counts.border_edges += !region.contains(across);
       counts.crease_edges += inverted.contains(f) && across != none && !inverted.contains(across);
     }

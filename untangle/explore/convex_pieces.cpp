@@ -45,7 +45,7 @@ void ConvexPieces::find_neighbors(int number) {
   for (const int face : piece.faces) {
     if (face == none) break;
     for (const int side : mesh_.sides(face)) {
-      const int beyond = mesh_.face_of(Mesh::opposite(side));
+      const int beyond = mesh_.face_across(side);
       if (beyond == none) continue;
       auto faces = piece.faces;
       std::replace(faces.begin(), faces.end(), face, beyond);
@@ -53,7 +53,7 @@ void ConvexPieces::find_neighbors(int number) {
       const int other = find(faces);
       if (other == none) continue;
       piece.neighbors.push_back({side, other});
-      pieces_[other].neighbors.push_back({Mesh::opposite(side), number});
+      pieces_[other].neighbors.push_back({mesh_.opposite(side), number});
     }
   }
 }

@@ -50,7 +50,7 @@ class LocalExploration {
     int piece;
   };
 
-  int across(int side) const { return mesh_.face_of(Mesh::opposite(side)); }
+  int across(int side) const { return mesh_.face_across(side); }
 
   void visit(Sheet& sheet, int piece);
   void mark(Sheet& sheet, int place);

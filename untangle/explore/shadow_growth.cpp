@@ -51,7 +51,7 @@ void Growth::find_creases() {
   for (int piece = 0; piece < pieces_.size(); ++piece) {
     if (pieces_[piece].is_grown()) continue;
     for (const int side : mesh_.sides(pieces_[piece].faces[0])) {
-      const int beyond = mesh_.face_of(Mesh::opposite(side));
+      const int beyond = mesh_.face_across(side);
       if (beyond == none || sheets_[beyond].is_inverted()) continue;
       creases_.push_back(side);
       boxes.emplace_back(box_of(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side))), side);
@@ -84,7 +84,7 @@ void Growth::start_at(int crease, const std::vector<const Sheet*>& upright) {
 
 void Growth::move(const Sheet& moving, const Sheet& staying) {
   for (const int side : mesh_.sides(moving.face)) {
-    const int beyond = mesh_.face_of(Mesh::opposite(side));
+    const int beyond = mesh_.face_across(side);
     if (beyond == none || !meets(side, staying)) continue;
     const auto& next = sheets_[beyond];
     if (next.turn == Orientation::CounterClockwise) add(next, staying);

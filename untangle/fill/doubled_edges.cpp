@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "core/mesh/around.h"
 #include "kinemesh/predicates.h"
 
 namespace kinemesh {
@@ -54,17 +55,14 @@ class EdgeCount {
   // Every vertex of the border starts one side of it, or several.
   void count_kept_edges(int vertex) {
     if (!seen_.insert(vertex).second) return;
-    const int first = mesh_.outgoing(vertex);
-    int h = first;
-    do {
-      const int left = mesh_.face_of(h), right = mesh_.face_of(Mesh::opposite(h));
-      const bool freed =
-          left != none && right != none && sets_.set_of(left) == set_ && sets_.set_of(right) == set_;
+    for (Spokes spokes(mesh_, vertex); !spokes.is_done(); spokes.advance()) {
+      const int across = mesh_.face_across(spokes.side());
+      const bool freed = across != none && sets_.set_of(Mesh::face_of(spokes.side())) == set_ &&
+                         sets_.set_of(across) == set_;
       // Seen from both ends if both are on the border; counted from the lower one, and others cannot be
       // doubled.
-      if (!freed && vertex < mesh_.to(h)) ++count_[{vertex, mesh_.to(h)}];
-      h = mesh_.next(Mesh::opposite(h));
-    } while (h != first);
+      if (!freed && vertex < spokes.end()) ++count_[{vertex, spokes.end()}];
+    }
   }
 
   bool flip(int t, int k) {

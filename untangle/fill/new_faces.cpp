@@ -46,9 +46,8 @@ class LabelFlood {
   }
 
   // From the face that has been inside the border so far.
-  void enter(int t, int halfedge) {
-    set(t, mesh_->label(mesh_->face_of(halfedge)),
-        user_ends(*mesh_, mesh_->from(halfedge), mesh_->to(halfedge)));
+  void enter(int t, int side) {
+    set(t, mesh_->label(Mesh::face_of(side)), user_ends(*mesh_, mesh_->from(side), mesh_->to(side)));
   }
 
   void spread(int t, int k) {
@@ -160,7 +159,6 @@ class PatchBuilder {
     assign_slots();
     connect();
     certify();
-    patch.outgoing.clear();
   }
 
  private:
@@ -219,26 +217,29 @@ class PatchBuilder {
     for (std::size_t i = 0; i < spare_faces_.size(); ++i) patch_->faces[spare_faces_[i]] = spare_slots_[i];
   }
 
-  // Every side gets its half-edge: on the border the one that stays, inside the next of the edges set free.
   void connect() {
-    patch_->edges = hole_->inner;
-    patch_->constraints.clear();
-    patch_->halfedges.assign(keys_.size(), {none, none, none});
-    for (int i = 0; i < faces_->size(); ++i) {
-      for (int k = 0; k < 3; ++k) connect(i, k);
-    }
-    if (patch_->constraints.size() != patch_->edges.size()) throw std::logic_error("a region lost an edge");
+    const int n = static_cast<int>(keys_.size());
+    n_border_ = 0;
+    patch_->lines.clear();
+    patch_->across.resize(keys_.size());
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < 3; ++k) patch_->across[i][k] = connect(i, k);
+    if (n_border_ != hole_->border.size()) throw std::logic_error("a region's border changed its size");
   }
 
-  void connect(int i, int k) {
-    int& halfedge = patch_->halfedges[i][k];
-    if (across_[i][k] < 0) halfedge = ~across_[i][k];
-    if (halfedge != none) return;
-    if (patch_->constraints.size() == patch_->edges.size()) throw std::logic_error("a region gained an edge");
-    const int edge = patch_->edges[patch_->constraints.size()], beyond = place_[across_[i][k]];
-    patch_->constraints.push_back(constraints_[i][k]);
-    halfedge = 2 * edge;
-    patch_->halfedges[beyond][side_back(i, k, beyond)] = 2 * edge + 1;
+  // What lies beyond; of a constrained edge the first side to come notes it.
+  int connect(int i, int k) {
+    const int beyond = across_[i][k];
+    if (beyond < 0) {
+      ++n_border_;
+      if (mesh_->has_constraint(~beyond))
+        patch_->lines.push_back({Mesh::side(i, k), mesh_->constraint_of(~beyond)});
+      return beyond;
+    }
+    const int place = place_[beyond], back = Mesh::side(place, side_back(i, k, place));
+    if (constraints_[i][k] != none && Mesh::side(i, k) < back)
+      patch_->lines.push_back({Mesh::side(i, k), constraints_[i][k]});
+    return back;
   }
 
   // The side of the face beyond that lies on side k of the one at place i.
@@ -261,14 +262,16 @@ class PatchBuilder {
   // Each constrained edge is there again, once.
   void certify_constraints() {
     old_constraints_.clear();
-    for (const int side : hole_->inner_constraints)
-      old_constraints_.push_back(mesh_->constraint_of(Mesh::edge_of(side)));
+    for (const auto& edge : hole_->border) note_old(edge.side);
+    for (const int side : hole_->inner_constraints) note_old(side);
     new_constraints_.clear();
-    std::copy_if(patch_->constraints.begin(), patch_->constraints.end(), std::back_inserter(new_constraints_),
-                 [](int constraint) { return constraint != none; });
+    for (const auto& line : patch_->lines) new_constraints_.push_back(line.constraint);
     std::sort(old_constraints_.begin(), old_constraints_.end());
     std::sort(new_constraints_.begin(), new_constraints_.end());
     if (new_constraints_ != old_constraints_) throw std::logic_error("a region lost a constrained edge");
+  }
+  void note_old(int side) {
+    if (mesh_->has_constraint(side)) old_constraints_.push_back(mesh_->constraint_of(side));
   }
 
   static int following(int k) { return k == 2 ? 0 : k + 1; }
@@ -291,7 +294,8 @@ class PatchBuilder {
   std::vector<int> place_;                // of each new face in the patch
   std::vector<int> slots_, spare_slots_;  // faces of the mesh
   std::vector<std::size_t> spare_faces_;  // places in the patch
-  std::vector<int> old_constraints_, new_constraints_;  // of the edges inside
+  std::size_t n_border_ = 0;              // sides on the border
+  std::vector<int> old_constraints_, new_constraints_;
 };
 
 }  // namespace

@@ -6,17 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/patch.h"
 #include "kinemesh/defect.h"
-#include "kinemesh/mesh.h"
 #include "untangle/fill/hole.h"
 
 namespace kinemesh {
 
 // Side k of a triangle runs from corner k to corner k + 1.
 struct NewFaces {
-  std::vector<Triangle> triangles;    // vertices of the mesh, counter-clockwise
-  std::vector<Triangle> neighbours;   // across side k: number of another triangle, or ~h where side k lies
-                                      // along the half-edge h of the region's border, inside the region
+  std::vector<Triangle> triangles;  // vertices of the mesh, counter-clockwise
+  std::vector<Triangle>
+      neighbours;  // across side k: number of another triangle, or ~s where side k lies where side
+                   // s of one of the region's faces lies on the region's border
   std::vector<Triangle> constraints;  // of side k: number of one, or none; of no meaning on the border
   std::vector<int> labels;            // per triangle; set by finish
 

@@ -119,7 +119,7 @@ class Construction {
     index.build(mesh_, pieces_);
     for (const int piece : pieces_) {
       for (const int side : mesh_.sides(piece)) {
-        const int across = mesh_.face_of(Mesh::opposite(side));
+        const int across = mesh_.face_across(side);
         if (across == none || !is_piece(across)) trace_crease(piece, side, index);
       }
     }
@@ -143,7 +143,7 @@ class Construction {
       if (!is_piece(face)) add_interval(a, b, face, sheets);
     }
     std::sort(sheets.begin(), sheets.end(), low_first);
-    const Segment crease{from, to, Mesh::edge_of(side)};
+    const Segment crease{from, to, mesh_.lower(side)};
     const Place end{1, none};
     Place free_from{0, none};
     for (const auto& cover : covered) {
@@ -164,7 +164,7 @@ class Construction {
       const Number u = distance(corners[k], corners[(k + 1) % 3], a, upright);
       const Number w = distance(corners[k], corners[(k + 1) % 3], b, upright);
       if (u >= 0 && w >= 0) continue;
-      const Place cut{u / (u - w), Mesh::edge_of(sides[k])};
+      const Place cut{u / (u - w), mesh_.lower(sides[k])};
       if (w < 0 && is_before(cut, interval.high)) interval.high = cut;
       if (u < 0 && is_before(interval.low, cut)) interval.low = cut;
     }
@@ -235,12 +235,12 @@ class Construction {
 
   void glue_along_mesh(int face, int k, int side) {
     const int halfedge = mesh_.sides(face)[k];
-    const int across = mesh_.face_of(Mesh::opposite(halfedge));
+    const int across = mesh_.face_across(halfedge);
     if (across == none || sets_.set_of(across) != set_) {
       surface_.glue(side, ~halfedge);
       return;
     }
-    const int edge = Mesh::edge_of(halfedge);
+    const int edge = mesh_.lower(halfedge);
     const int a = surface_.corners[side], b = surface_.corners[Surface::next(side)];
     surface_.constraints[side] = mesh_.constraint_of(edge);
     glue_by_key({edge, std::min(a, b), std::max(a, b)}, side);
@@ -279,13 +279,13 @@ class Construction {
   void add_constraints_inside(std::vector<int>& used, std::vector<Edge>& edges) {
     for (const int face : sets_.faces(set_)) {
       for (const int side : mesh_.sides(face)) {
-        const int constraint = mesh_.constraint_of(Mesh::edge_of(side));
-        const int across = mesh_.face_of(Mesh::opposite(side));
+        const int constraint = mesh_.constraint_of(side);
+        const int across = mesh_.face_across(side);
         const bool inner = across != none && sets_.set_of(across) == set_;
         if (constraint == none || !inner || face > across) continue;
         const auto stops = stops_along(side);
         for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-          const Key key{Mesh::edge_of(side), std::min(stops[i], stops[i + 1]),
+          const Key key{mesh_.lower(side), std::min(stops[i], stops[i + 1]),
                         std::max(stops[i], stops[i + 1])};
           if (open_sides_.contains(key) || glued_.contains(key)) continue;
           edges.push_back({place_of(used, stops[i]), place_of(used, stops[i + 1])});
@@ -299,7 +299,7 @@ class Construction {
   std::vector<int> stops_along(int halfedge) const {
     const int a = local(mesh_.from(halfedge)), b = local(mesh_.to(halfedge));
     std::vector<int> stops{a, b};
-    for (const int face : {mesh_.face_of(halfedge), mesh_.face_of(Mesh::opposite(halfedge))}) {
+    for (const int face : {Mesh::face_of(halfedge), mesh_.face_across(halfedge)}) {
       const auto subs = subs_of_.find(face);
       if (subs == subs_of_.end()) continue;
       for (const int s : subs->second) {
@@ -463,7 +463,7 @@ class Construction {
     }
     for (const int face : sets_.faces(set_)) {
       for (const int side : mesh_.sides(face)) {
-        const int across = mesh_.face_of(Mesh::opposite(side));
+        const int across = mesh_.face_across(side);
         if (across == none || sets_.set_of(across) != set_) expected.push_back(side);
       }
     }

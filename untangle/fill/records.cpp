@@ -43,7 +43,7 @@ int count_crease_edges(const Mesh& mesh, const Survey& found) {
   int count = 0;
   for (const int face : found.inverted) {
     for (const int side : mesh.sides(face)) {
-      const int across = mesh.face_of(Mesh::opposite(side));
+      const int across = mesh.face_across(side);
       count += across != none && !contains(found.inverted, across) && !contains(found.flat, across);
     }
   }

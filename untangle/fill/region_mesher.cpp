@@ -73,7 +73,7 @@ void RegionMesher::add_vertices() {
 
 bool RegionMesher::is_constrained(int edge) const {
   if (edge >= border_edges()) return true;
-  return mesh_->constraint_of(Mesh::edge_of(hole_->border[edge].halfedge)) != none;
+  return mesh_->has_constraint(hole_->border[edge].side);
 }
 
 // --- what the triangulation says ---
@@ -141,7 +141,7 @@ bool RegionMesher::find_lost_vertex() {
 bool RegionMesher::find_taken_edge() {
   std::vector<Edge> taken;
   for (int i = 0; i < border_edges(); ++i) {
-    if (mesh_->face_of(Mesh::opposite(hole_->border[i].halfedge)) == none) taken.push_back(sorted(edges_[i]));
+    if (mesh_->face_across(hole_->border[i].side) == none) taken.push_back(sorted(edges_[i]));
   }
   std::sort(taken.begin(), taken.end());
   for (int i = border_edges(); i < static_cast<int>(edges_.size()); ++i) {
@@ -165,9 +165,9 @@ void RegionMesher::convert() {
       const int edge = triangulation_.edges[t][k];
       const bool on_border = edge != none && edge < border_edges();
       corners[k] = vertices_[triangulation_.triangles[t][k]];
-      neighbours[k] = on_border ? ~hole_->border[edge].halfedge : number_[triangulation_.neighbours[t][k]];
+      neighbours[k] = on_border ? ~hole_->border[edge].side : number_[triangulation_.neighbours[t][k]];
       if (edge != none && !on_border)
-        constraints[k] = mesh_->constraint_of(Mesh::edge_of(hole_->inner_constraints[edge - border_edges()]));
+        constraints[k] = mesh_->constraint_of(hole_->inner_constraints[edge - border_edges()]);
     }
     new_faces_.add(corners, neighbours, constraints);
   }

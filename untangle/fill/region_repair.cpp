@@ -19,10 +19,8 @@ void clear(RegionPatch& work) {
   work.patch.faces.clear();
   work.patch.triangles.clear();
   work.patch.labels.clear();
-  work.patch.halfedges.clear();
-  work.patch.edges.clear();
-  work.patch.constraints.clear();
-  work.patch.outgoing.clear();
+  work.patch.across.clear();
+  work.patch.lines.clear();
   work.record = {};
 }
 
@@ -127,7 +125,7 @@ void RegionRepair::enlarge(const Mesh& mesh, int region) {
     const auto faces = regions_.faces(region);  // a copy: the set grows
     for (const int face : faces) {
       for (const int side : mesh.sides(face)) {
-        const int across = mesh.face_of(Mesh::opposite(side));
+        const int across = mesh.face_across(side);
         if (across != none) take(across, region);
       }
     }

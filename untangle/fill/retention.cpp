@@ -73,9 +73,8 @@ class Choice {
     is_found[first] = true;
     for (std::size_t next = 0; next < component.size(); ++next) {
       for (const int side : mesh_.sides(component[next])) {
-        const auto beyond =
-            std::lower_bound(faces_.begin(), faces_.end(), mesh_.face_of(Mesh::opposite(side)));
-        if (beyond == faces_.end() || *beyond != mesh_.face_of(Mesh::opposite(side))) continue;
+        const auto beyond = std::lower_bound(faces_.begin(), faces_.end(), mesh_.face_across(side));
+        if (beyond == faces_.end() || *beyond != mesh_.face_across(side)) continue;
         const auto i = beyond - faces_.begin();
         if (!is_clear_[i] || is_found[i]) continue;
         is_found[i] = true;

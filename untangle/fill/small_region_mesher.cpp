@@ -42,11 +42,11 @@ bool SmallRegionMesher::collect(const Mesh& mesh, const Hole& hole) {
   if (n_faces_ > max_faces || !hole.inner_constraints.empty()) return false;
   number_vertices(mesh, hole);
   if (n_vertices_ > max_vertices) return false;
-  std::fill_n(halfedge_from_.begin(), n_vertices_, none);
+  std::fill_n(side_from_.begin(), n_vertices_, none);
   for (const auto& side : hole.border) {
     const int from = local(side.from);
-    if (halfedge_from_[from] != none) return false;  // a pinch
-    halfedge_from_[from] = side.halfedge;
+    if (side_from_[from] != none) return false;  // a pinch
+    side_from_[from] = side.side;
     border_next_[from] = local(side.to);
   }
   return true;
@@ -78,12 +78,12 @@ int SmallRegionMesher::local(int vertex) const {
 
 // False unless the border is one loop around a disc.
 bool SmallRegionMesher::trace_border() {
-  const auto is_on_border = [](int halfedge) { return halfedge != none; };
-  const auto end = halfedge_from_.begin() + n_vertices_;
-  const auto n_border = static_cast<int>(std::count_if(halfedge_from_.begin(), end, is_on_border));
+  const auto is_on_border = [](int side) { return side != none; };
+  const auto end = side_from_.begin() + n_vertices_;
+  const auto n_border = static_cast<int>(std::count_if(side_from_.begin(), end, is_on_border));
   if (n_border + 2 * (n_vertices_ - n_border) - 2 != n_faces_) return false;
   const int first =
-      static_cast<int>(std::find_if(halfedge_from_.begin(), end, is_on_border) - halfedge_from_.begin());
+      static_cast<int>(std::find_if(side_from_.begin(), end, is_on_border) - side_from_.begin());
   loop_.clear();
   int v = first;
   do {
@@ -178,7 +178,7 @@ void SmallRegionMesher::find_turn(std::size_t i) {
 
 bool SmallRegionMesher::insert_inner_vertices() {
   for (int v = 0; v < n_vertices_; ++v) {
-    if (halfedge_from_[v] == none && !insert(v)) return false;
+    if (side_from_[v] == none && !insert(v)) return false;
   }
   return true;
 }
@@ -304,7 +304,7 @@ void SmallRegionMesher::convert() {
     for (int k = 0; k < 3; ++k) {
       const int across = across_[3 * face + k];
       corners[k] = vertices_[start_[3 * face + k]];
-      neighbours[k] = across >= 0 ? across / 3 : ~halfedge_from_[~across];
+      neighbours[k] = across >= 0 ? across / 3 : ~side_from_[~across];
     }
     new_faces_.add(corners, neighbours, {none, none, none});
   }

@@ -63,11 +63,11 @@ class SmallRegionMesher {
   void set(int face, const Triangle& corners, const Triangle& across);
   void convert();
 
-  int n_faces_ = 0, n_vertices_ = 0;             // of the region
-  std::array<int, max_vertices> vertices_;       // of the mesh, ascending
-  std::array<Point, max_vertices> points_;       // theirs
-  std::array<int, max_vertices> halfedge_from_;  // of the border, by where it leaves; none inside
-  std::array<int, max_vertices> border_next_;    // the vertex it goes to
+  int n_faces_ = 0, n_vertices_ = 0;           // of the region
+  std::array<int, max_vertices> vertices_;     // of the mesh, ascending
+  std::array<Point, max_vertices> points_;     // theirs
+  std::array<int, max_vertices> side_from_;    // of the border, by where it leaves; none inside
+  std::array<int, max_vertices> border_next_;  // the vertex it goes to
 
   std::vector<Tip> loop_;
 

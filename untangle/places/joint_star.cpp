@@ -121,11 +121,9 @@ JointStar::JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices, int
 
 void JointStar::list_faces(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge) {
   for (const auto& free : vertices)
-    for_each_outgoing(mesh, free.vertex, [&](int h) {
-      if (mesh.face_of(h) != none) faces_.push_back(mesh.face_of(h));
-    });
+    for_each_side_from(mesh, free.vertex, [&](int side) { faces_.push_back(Mesh::face_of(side)); });
   if (flipped_edge != none)
-    for (const int h : {2 * flipped_edge, 2 * flipped_edge + 1}) faces_.push_back(mesh.face_of(h));
+    for (const int side : {flipped_edge, mesh.opposite(flipped_edge)}) faces_.push_back(Mesh::face_of(side));
   std::ranges::sort(faces_);
   faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
 }
@@ -145,11 +143,10 @@ void JointStar::list_triangles(const Mesh& mesh, std::span<const FreeVertex> ver
     of_domain.push_back(v);
   };
   for (const int face : faces_) {
-    const auto is_flipped = [&](int h) { return Mesh::edge_of(h) == flipped_edge; };
-    const auto sides = mesh.sides(face);
+    const auto is_flipped = [&](int side) { return mesh.lower(side) == flipped_edge; };
+    const auto sides = Mesh::sides(face);
     if (const auto h = std::ranges::find_if(sides, is_flipped); h != sides.end())
-      list({mesh.from(*h), mesh.to(mesh.next(Mesh::opposite(*h))), mesh.to(mesh.next(*h))},
-           mesh.is_padding(face));
+      list({mesh.from(*h), mesh.apex(mesh.opposite(*h)), mesh.apex(*h)}, mesh.is_padding(face));
     else
       list(mesh.triangles()[face], mesh.is_padding(face));
   }

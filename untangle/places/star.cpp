@@ -57,14 +57,13 @@ double tangent_from_any_corner(const std::array<Point, 3>& p) {
 }
 
 Star::Star(const Mesh& mesh, int vertex) : x_(mesh.position(vertex)) {
-  for_each_outgoing(mesh, vertex, [&](int h) {
-    const int face = mesh.face_of(h);
-    const Point& end = mesh.position(mesh.to(h));
-    if (mesh.constraint_of(Mesh::edge_of(h)) != none) constrained_.push_back(end);
-    if (face == none)
-      is_on_hull_ = true;
-    else
-      (mesh.is_padding(face) ? padding_ : link_).push_back({end, mesh.position(mesh.to(mesh.next(h)))});
+  for_each_neighbour(mesh, vertex, [&](int neighbour, int side) {
+    const Point& end = mesh.position(neighbour);
+    if (mesh.has_constraint(side)) constrained_.push_back(end);
+    if (mesh.opposite(side) == none) is_on_hull_ = true;
+    if (mesh.from(side) == vertex)
+      (mesh.is_padding(Mesh::face_of(side)) ? padding_ : link_)
+          .push_back({end, mesh.position(mesh.apex(side))});
   });
   const auto first =
       std::ranges::min_element(link_, comes_before, [](const LinkEdge& side) { return side[0]; });

@@ -57,20 +57,18 @@ const AngleOptions& checked(const AngleOptions& options) {
 // Calls visit(face) for those that a flip of the edge rewrites, or a move of the vertex changes.
 template <class Visit>
 void for_each_beside(const Mesh& mesh, int edge, const Visit& visit) {
-  visit(mesh.face_of(2 * edge));
-  visit(mesh.face_of(2 * edge + 1));
+  visit(Mesh::face_of(edge));
+  visit(mesh.face_across(edge));
 }
 
 template <class Visit>
 void for_each_around(const Mesh& mesh, int vertex, const Visit& visit) {
-  for_each_outgoing(mesh, vertex, [&](int h) {
-    if (mesh.face_of(h) != none) visit(mesh.face_of(h));
-  });
+  for_each_side_from(mesh, vertex, [&](int side) { visit(Mesh::face_of(side)); });
 }
 
 // Of the edge's ends, ascending.
-std::pair<int, int> users_of(const Mesh& mesh, int h) {
-  return std::minmax({mesh.user_vertex(mesh.from(h)), mesh.user_vertex(mesh.to(h))});
+std::pair<int, int> users_of(const Mesh& mesh, int side) {
+  return std::minmax({mesh.user_vertex(mesh.from(side)), mesh.user_vertex(mesh.to(side))});
 }
 
 // The smallest angles of the two faces beside an edge, and of those that its flip would make; the latter 0 if
@@ -80,9 +78,8 @@ struct FlipTangents {
 };
 
 FlipTangents tangents_of_flip(const Mesh& mesh, int edge) {
-  const int h = 2 * edge, o = Mesh::opposite(h);
-  const Point &p = mesh.position(mesh.from(h)), &q = mesh.position(mesh.to(h));
-  const Point &left = mesh.position(mesh.to(mesh.next(h))), &right = mesh.position(mesh.to(mesh.next(o)));
+  const Point &p = mesh.position(mesh.from(edge)), &q = mesh.position(mesh.to(edge));
+  const Point &left = mesh.position(mesh.apex(edge)), &right = mesh.position(mesh.apex(mesh.opposite(edge)));
   const auto smaller = [](const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
     return std::min(tangent_from_any_corner(a), tangent_from_any_corner(b));
   };
@@ -206,9 +203,9 @@ void AngleUpkeep::find_joint(const Mesh& mesh, Joint& joint) const {
   }
   const auto free = free_vertices_around(mesh, joint.face, rings.front());
   auto sides = mesh.sides(joint.face);
-  std::ranges::sort(sides, {}, [&](int h) { return users_of(mesh, h); });
-  for (const int h : sides) {
-    const int edge = Mesh::edge_of(h);
+  std::ranges::sort(sides, {}, [&](int side) { return users_of(mesh, side); });
+  for (const int side : sides) {
+    const int edge = mesh.lower(side);
     const bool may_flip = mesh.is_flippable(edge) && tangents_of_flip(mesh, edge).after > 0.0;
     if (may_flip && try_joint(mesh, free, edge, joint)) return;
   }
@@ -327,16 +324,16 @@ AngleUpkeep::Proposal AngleUpkeep::move_of(const Mesh& mesh, int vertex) const {
 AngleUpkeep::Proposal AngleUpkeep::best_at(const Mesh& mesh, int face) const {
   Proposal best;
   for (const int v : mesh.triangles()[face]) best = better(best, move_of(mesh, v));
-  for (const int h : mesh.sides(face)) best = better(best, flip_of(mesh, h));
+  for (const int side : Mesh::sides(face)) best = better(best, flip_of(mesh, side));
   return best;
 }
 
-AngleUpkeep::Proposal AngleUpkeep::flip_of(const Mesh& mesh, int h) const {
-  const int edge = Mesh::edge_of(h);
+AngleUpkeep::Proposal AngleUpkeep::flip_of(const Mesh& mesh, int side) const {
+  const int edge = mesh.lower(side);
   if (!mesh.is_flippable(edge)) return {};
   const auto [before, after] = tangents_of_flip(mesh, edge);
   if (!is_better(after, before)) return {};
-  const auto [low, high] = users_of(mesh, h);
+  const auto [low, high] = users_of(mesh, edge);
   return {.before = before, .after = after, .users = {none, low, high}, .edge = edge};
 }
 
@@ -407,10 +404,10 @@ void AngleUpkeep::move(Mesh& mesh, const Place& place) noexcept {
 }
 
 void AngleUpkeep::flip(Mesh& mesh, int edge) noexcept {
-  mesh.flip(edge);
   for_each_beside(mesh, edge, [&](int face) {
     if (!std::exchange(is_flipped_[face], true)) flipped_.push_back(face);
   });
+  mesh.flip(edge);
 }
 
 // The corners of the faces touched are all whose faces have changed.

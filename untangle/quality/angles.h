@@ -80,7 +80,7 @@ class AngleUpkeep : public QualityPass {
     int round = 0;  // after which this was found
     std::vector<int>
         faces{};      // that the last try has looked at: while they are as they were, it is left at that
-    int edge = none;  // to be flipped besides
+    int edge = none;  // to be flipped besides; its lower side
     std::vector<Place> moves{};
     double before = 0.0, after = 0.0;  // after is 0 if nothing helps
   };
@@ -88,7 +88,7 @@ class AngleUpkeep : public QualityPass {
   struct Proposal {
     double before = 0.0, after = 0.0;
     std::array<int, 3> users{none, none, none};  // of the vertex, the edge or the face, ascending at the end
-    int edge = none;                             // to be flipped
+    int edge = none;                             // to be flipped; its lower side
     int place = none;                            // or where to move
     const Joint* joint = nullptr;                // or where several move
 
@@ -116,7 +116,7 @@ class AngleUpkeep : public QualityPass {
   std::optional<Point> best_place(const Mesh& mesh, int vertex, const Star& star) const;
   void find_place(const Mesh& mesh, Place& place) const;
   Proposal best_at(const Mesh& mesh, int face) const;
-  Proposal flip_of(const Mesh& mesh, int halfedge) const;
+  Proposal flip_of(const Mesh& mesh, int side) const;
   Proposal move_of(const Mesh& mesh, int vertex) const;
   Proposal proposal_of(const Mesh& mesh, const Joint& joint) const;
   void choose(const Mesh& mesh);

@@ -6,7 +6,6 @@
 #include <new>
 
 #include "core/base/parallel.h"
-#include "core/mesh/around.h"
 #include "core/sweep/face_sweep.h"
 #include "kinemesh/predicates.h"
 #include "untangle/quality/cotangents.h"
@@ -16,21 +15,11 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-// True of constrained edges and those of the hull. Corners are read from the flat mirror of the faces, which is
-// closer together than the half-edges.
-bool is_locally_delaunay(const Mesh& mesh, int edge) {
-  if (!mesh.is_flippable(edge)) return true;
-  const auto x = mesh.positions();
-  const auto& t = mesh.triangles()[mesh.face_of(2 * edge)];
-  const auto& o = mesh.triangles()[mesh.face_of(2 * edge + 1)];
-  const int apex =
-      o[0] ^ o[1] ^ o[2] ^ mesh.from(2 * edge) ^ mesh.to(2 * edge);  // what is left of its corners
-  return in_circle(x[t[0]], x[t[1]], x[t[2]], x[apex]) != Side::Inside;
-}
-
-// Asks for what sides() reads.
-void fetch_side(const Mesh& mesh, int face) {
-  __builtin_prefetch(&mesh.connectivity().halfedge(OpenMesh::HalfedgeHandle(mesh.halfedge_of(face))));
+// True of constrained edges and those of the hull.
+bool is_locally_delaunay(const Mesh& mesh, int side) {
+  if (!mesh.is_flippable(side)) return true;
+  const auto [a, b, c] = mesh.corners(Mesh::face_of(side));
+  return in_circle(a, b, c, mesh.position(mesh.apex(mesh.opposite(side)))) != Side::Inside;
 }
 
 // Calls f(i) for 0 <= i < n in all threads; where there is no memory left to start them, in this one. So f
@@ -52,8 +41,8 @@ void for_all(int n, const F& f) {
 DelaunayUpkeep::DelaunayUpkeep(const Mesh& mesh)
     : has_moved_(mesh.n_vertices(), false),
       has_changed_(mesh.n_faces(), false),
-      cotangent_(2 * mesh.n_edges(), unknown),
-      is_wrong_(mesh.n_edges(), false) {
+      cotangent_(mesh.n_faces(), {unknown, unknown, unknown}),
+      is_wrong_(mesh.n_faces(), 0) {
   wrong_.reserve(mesh.n_edges());
   flipping_.reserve(mesh);
 }
@@ -86,31 +75,37 @@ void DelaunayUpkeep::find_wrong_edges(const Mesh& mesh) {
   for_all(mesh.n_faces(), [&](int f) {
     if (has_changed_[f]) bound_angles(mesh, f);
   });
-  for_all(mesh.n_edges(), [&](int e) {
-    if (needs_judgement(e)) is_wrong_[e] = !is_locally_delaunay(mesh, e);
-  });
+  for_all(mesh.n_faces(),
+          [&](int f) { is_wrong_[f] = static_cast<char>(is_wrong_[f] | wrong_sides(mesh, f)); });
   wrong_.clear();
-  for (int edge = 0; edge < mesh.n_edges(); ++edge) {
-    if (!is_wrong_[edge]) continue;
-    wrong_.push_back(side_along(mesh, lower_side(mesh, edge)));
-    is_wrong_[edge] = false;
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    for (int k = 0; k < 3; ++k)
+      if ((is_wrong_[f] & 1 << k) != 0) wrong_.push_back(Mesh::side(f, k));
+    is_wrong_[f] = 0;
   }
-  std::sort(wrong_.begin(), wrong_.end());  // in no order that depends on what was flipped before
 }
 
 void DelaunayUpkeep::bound_angles(const Mesh& mesh, int face) {
   fetch_ahead(mesh.triangles(), mesh.positions(), face);
-  fetch_side(mesh, std::min(face + 32, mesh.n_faces() - 1));
-  const auto bounds = cotangent_bounds(mesh.corners(face));
-  const Triangle sides = mesh.sides(face);
-  for (int k = 0; k < 3; ++k) cotangent_[sides[k]] = bounds[k];
+  cotangent_[face] = cotangent_bounds(mesh.corners(face));
+}
+
+// Bit k: side k is the lower one of its edge, which has been judged and is wrong.
+char DelaunayUpkeep::wrong_sides(const Mesh& mesh, int face) {
+  int wrong = 0;
+  for (const int side : Mesh::sides(face)) {
+    const int across = mesh.opposite(side);
+    if (across < side) continue;  // the hull is always right
+    float& left = cotangent_[face][Mesh::corner_of(side)];
+    float& right = cotangent_[Mesh::face_of(across)][Mesh::corner_of(across)];
+    if (needs_judgement(left, right) && !is_locally_delaunay(mesh, side)) wrong |= 1 << Mesh::corner_of(side);
+  }
+  return static_cast<char>(wrong);
 }
 
 // Of an edge of a changed face; not if it is proved to be locally Delaunay. Forgets what is known of it, so
 // that a second call, where memory was short, is true once more only for an edge that has not been judged.
-bool DelaunayUpkeep::needs_judgement(int edge) {
-  float& left = cotangent_[2 * edge];
-  float& right = cotangent_[2 * edge + 1];
+bool DelaunayUpkeep::needs_judgement(float& left, float& right) const {
   if (std::isnan(left) && std::isnan(right)) return false;
   const bool is_proved = left + right >= 0.0f;
   left = right = unknown;

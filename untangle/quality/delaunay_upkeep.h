@@ -1,6 +1,7 @@
 // Keeps a moving mesh the constrained Delaunay triangulation, step after step.
 #pragma once
 
+#include <array>
 #include "kinemesh/delaunay.h"
 #include "untangle/quality/quality_pass.h"
 
@@ -24,15 +25,17 @@ class DelaunayUpkeep : public QualityPass {
                           std::span<const RegionRecord> replaced);
   void find_wrong_edges(const Mesh& mesh);
   void bound_angles(const Mesh& mesh, int face);
-  bool needs_judgement(int edge);
+  bool needs_judgement(float& left, float& right) const;
+  char wrong_sides(const Mesh& mesh, int face);
 
   DelaunayFlipping flipping_;
   std::vector<char> has_moved_;    // per vertex
   std::vector<char> has_changed_;  // per face: is new or has a moved corner
-  std::vector<float>
-      cotangent_;               // per half-edge of a changed face: bound of that across from it; else unknown
-  std::vector<char> is_wrong_;  // per edge: not locally Delaunay
-  std::vector<int> wrong_;      // these edges, ascending
+  std::vector<std::array<float, 3>>
+      cotangent_;  // per side of a changed face: bound of that across; else unknown
+  std::vector<char>
+      is_wrong_;            // per face, bit k: its side k is the lower one of an edge, not locally Delaunay
+  std::vector<int> wrong_;  // these sides, ascending
 };
 
 }  // namespace kinemesh

@@ -45,9 +45,8 @@ bool Smoother::untangle() {
 
 int Smoother::tangled_face_at(int vertex) const {
   int tangled = none;
-  for_each_outgoing(mesh_, vertex, [&](int h) {
-    const int face = mesh_.face_of(h);
-    if (face != none && !is_upright(mesh_, face)) tangled = face;
+  for_each_side_from(mesh_, vertex, [&](int side) {
+    if (!is_upright(mesh_, Mesh::face_of(side))) tangled = Mesh::face_of(side);
   });
   return tangled;
 }

@@ -13,8 +13,8 @@ namespace {
 
 double distance_to_nearest_neighbour(const Mesh& mesh, int vertex) {
   double nearest = std::numeric_limits<double>::infinity();
-  for_each_outgoing(mesh, vertex, [&](int h) {
-    nearest = std::min(nearest, glm::distance(mesh.position(vertex), mesh.position(mesh.to(h))));
+  for_each_neighbour(mesh, vertex, [&](int neighbour, int) {
+    nearest = std::min(nearest, glm::distance(mesh.position(vertex), mesh.position(neighbour)));
   });
   return nearest;
 }
@@ -23,8 +23,8 @@ double distance_to_nearest_neighbour(const Mesh& mesh, int vertex) {
 // to the last bit: corners in the same order.
 double worst_tangent(const Mesh& mesh, int vertex) {
   double worst = std::numeric_limits<double>::infinity();
-  for_each_outgoing(mesh, vertex, [&](int h) {
-    const int face = mesh.face_of(h);
+  for_each_side_from(mesh, vertex, [&](int side) {
+    const int face = Mesh::face_of(side);
     worst = std::min(worst, is_upright(mesh, face) ? tangent_of_smallest_angle(mesh.corners(face)) : 0.0);
   });
   return worst;
@@ -72,15 +72,15 @@ bool VertexSweeps::visit(Mesh& mesh, int v, const SmoothingOptions& options) {
   if (!moves) return false;
   if (!std::exchange(is_moved_[v], true)) moved_.push_back({v, before});
   restless_[v] = true;
-  for_each_outgoing(mesh, v, [&](int h) { restless_[mesh.to(h)] = may_move(mesh, mesh.to(h)); });
+  for_each_neighbour(mesh, v, [&](int w, int) { restless_[w] = may_move(mesh, w); });
   return true;
 }
 
 bool VertexSweeps::move_towards_mean(Mesh& mesh, int v, const Demand& demand) {
   Point sum{0.0, 0.0};
   int neighbours = 0;
-  for_each_outgoing(mesh, v, [&](int h) {
-    sum += mesh.position(mesh.to(h));
+  for_each_neighbour(mesh, v, [&](int neighbour, int) {
+    sum += mesh.position(neighbour);
     ++neighbours;
   });
   const Point place = mesh.position(v), mean = sum / static_cast<double>(neighbours);
@@ -92,8 +92,8 @@ bool VertexSweeps::move_towards_mean(Mesh& mesh, int v, const Demand& demand) {
 
 bool VertexSweeps::move_to_optimum(Mesh& mesh, int v, const Demand& demand) {
   link_.clear();
-  for_each_outgoing(mesh, v, [&](int h) {
-    link_.push_back({mesh.position(mesh.to(h)), mesh.position(mesh.to(mesh.next(h)))});
+  for_each_side_from(mesh, v, [&](int side) {
+    link_.push_back({mesh.position(mesh.to(side)), mesh.position(mesh.apex(side))});
   });
   return try_place(mesh, v, optimal_point(link_, mesh.position(v)), demand);
 }

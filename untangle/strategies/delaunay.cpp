@@ -12,25 +12,24 @@ namespace {
 
 // An inverted or flat face beside the edge, the lower one first, or none.
 int tangled_face_beside(const Mesh& mesh, int edge) {
-  const int h = lower_side(mesh, edge);
-  for (const int side : {h, Mesh::opposite(h)}) {
-    const int face = mesh.face_of(side);
-    if (face != none && !is_upright(mesh, face)) return face;
-  }
+  for (const int side : {edge, mesh.opposite(edge)})
+    if (side != none && !is_upright(mesh, Mesh::face_of(side))) return Mesh::face_of(side);
   return none;
-}
-
-bool is_lower(const Mesh& mesh, int halfedge) {
-  const int across = mesh.face_of(Mesh::opposite(halfedge));
-  return across == none || mesh.face_of(halfedge) < across;
 }
 
 // Pre: both faces are upright. If not, the two form a strictly convex quadrilateral, so that a flip leaves
 // upright faces: the angles opposite the edge add up to more than two right ones.
 bool is_locally_delaunay(const Mesh& mesh, int edge) {
-  const int h = 2 * edge, o = Mesh::opposite(h);
-  const auto at = [&](int halfedge) { return mesh.position(mesh.to(halfedge)); };
-  return in_circle(at(o), at(h), at(mesh.next(h)), at(mesh.next(o))) != Side::Inside;
+  const auto at = [&](int vertex) { return mesh.position(vertex); };
+  return in_circle(at(mesh.from(edge)), at(mesh.to(edge)), at(mesh.apex(edge)),
+                   at(mesh.apex(mesh.opposite(edge)))) != Side::Inside;
+}
+
+// The side of a face across from another.
+int side_between(const Mesh& mesh, int face, int other) {
+  for (const int side : Mesh::sides(face))
+    if (mesh.face_across(side) == other) return side;
+  return none;
 }
 
 }  // namespace
@@ -41,11 +40,9 @@ bool is_locally_delaunay(const Mesh& mesh, int edge) {
 // volume off this sum and changes nothing else. So no set of faces comes twice, and there are finitely many.
 FlipOutcome DelaunayFlipping::run(Mesh& mesh, const RepairOptions& options) {
   reset(mesh);
-  for (int face = mesh.n_faces(); face-- > 0;) {
-    const auto sides = mesh.sides(face);
+  for (int face = mesh.n_faces(); face-- > 0;)
     for (int k = 3; k-- > 0;)
-      if (is_lower(mesh, sides[k])) push(4 * face + k);
-  }
+      if (mesh.is_lower(Mesh::side(face, k))) push(Mesh::side(face, k));
   return run_pending(mesh, options);
 }
 
@@ -98,7 +95,7 @@ int DelaunayFlipping::pop() {
 // A side that waits while its face is rewritten is looked at all the same: the new one may be another edge's.
 void DelaunayFlipping::visit(Mesh& mesh, int side, const RepairOptions& options, FlipOutcome& outcome) {
   ++outcome.visits;
-  const int edge = Mesh::edge_of(halfedge_at(mesh, side));
+  const int edge = mesh.lower(side);
   const int tangled = tangled_face_beside(mesh, edge);
   if (tangled != none) {
     untangle(mesh, tangled, options, outcome);
@@ -116,19 +113,19 @@ void DelaunayFlipping::untangle(Mesh& mesh, int face, const RepairOptions& optio
     ++outcome.untangled;
     outcome.replaced += static_cast<int>(region.faces.size());
     for (const int replaced : region.faces)
-      for (int k = 0; k < 3; ++k) push(4 * replaced + k);
+      for (const int its : Mesh::sides(replaced)) push(its);
   }
 }
 
 // The four edges around it are looked at again.
 void DelaunayFlipping::flip(Mesh& mesh, int edge) {
+  const int left = Mesh::face_of(edge), right = mesh.face_across(edge);
   mesh.flip(edge);
-  const int h = lower_side(mesh, edge);
-  for (const int diagonal : {h, Mesh::opposite(h)}) {
-    const int side = side_along(mesh, diagonal), face = side >> 2, k = side & 3;
+  for (const int face : {left, right}) {
     note_flipped(face);
-    push(4 * face + (k + 1) % 3);
-    push(4 * face + (k + 2) % 3);
+    const int diagonal = side_between(mesh, face, left + right - face);
+    push(Mesh::next(diagonal));
+    push(Mesh::prev(diagonal));
   }
 }
 
@@ -141,21 +138,10 @@ void DelaunayFlipping::note_flipped(int face) {
 std::vector<int> sides_of(const Mesh& mesh, std::span<const int> faces) {
   std::vector<int> sides;
   for (const int face : faces)
-    for (const int h : mesh.sides(face))
-      sides.push_back(side_along(mesh, lower_side(mesh, Mesh::edge_of(h))));
+    for (const int side : Mesh::sides(face)) sides.push_back(mesh.lower(side));
   std::sort(sides.begin(), sides.end());
   sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
   return sides;
-}
-
-std::vector<int> edges_of(const Mesh& mesh, std::span<const int> faces) {
-  std::vector<int> edges;
-  for (const int face : faces) {
-    for (const int side : mesh.sides(face)) edges.push_back(Mesh::edge_of(side));
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
 }
 
 }  // namespace kinemesh

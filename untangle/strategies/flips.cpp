@@ -38,9 +38,8 @@ struct Flip {
 };
 
 Flip flip_of(const Mesh& mesh, int edge) {
-  const int h = 2 * edge, o = Mesh::opposite(h);
-  const Point &a = mesh.position(mesh.to(o)), &b = mesh.position(mesh.to(h));
-  const Point &c = mesh.position(mesh.to(mesh.next(h))), &d = mesh.position(mesh.to(mesh.next(o)));
+  const Point &a = mesh.position(mesh.from(edge)), &b = mesh.position(mesh.to(edge));
+  const Point &c = mesh.position(mesh.apex(edge)), &d = mesh.position(mesh.apex(mesh.opposite(edge)));
   return {{{{a, b, c}, {b, a, d}}}, {{{d, b, c}, {c, a, d}}}};
 }
 
@@ -58,14 +57,8 @@ double gain_of(const Mesh& mesh, int edge) {
   return std::isfinite(gain) ? gain : 0.0;
 }
 
-bool are_joined(const Mesh& mesh, int v, int w) {
-  bool found = false;
-  for_each_outgoing(mesh, v, [&](int h) { found |= mesh.to(h) == w; });
-  return found;
-}
-
 bool would_double(const Mesh& mesh, int edge) {
-  const int c = mesh.to(mesh.next(2 * edge)), d = mesh.to(mesh.next(2 * edge + 1));
+  const int c = mesh.apex(edge), d = mesh.apex(mesh.opposite(edge));
   return c == d || are_joined(mesh, c, d);
 }
 
@@ -76,12 +69,6 @@ Tangles tangles_left(const Mesh& mesh, const Tangles& first, std::vector<int> re
   std::sort(rewritten.begin(), rewritten.end());
   rewritten.erase(std::unique(rewritten.begin(), rewritten.end()), rewritten.end());
   return tangles_among(mesh, rewritten);
-}
-
-// These faces as they are now, ready to be written again. The edges between them are as unconstrained as ever.
-Patch state_of(const Mesh& mesh, const std::vector<int>& faces) {
-  return mesh.inverse_of(
-      {.faces = faces, .triangles = {}, .labels = {}, .halfedges = {}, .edges = {}, .constraints = {}});
 }
 
 }  // namespace
@@ -113,18 +100,19 @@ class EdgeFlips::Run {
     while (!queue_.empty() && n_flips_ != flips_before) {
       flips_before = n_flips_;
       while (!queue_.empty()) visit(pop());
-      for (const int side : std::exchange(blocked_, {})) push(Mesh::edge_of(halfedge_at(mesh_, side)));
+      for (const int side : std::exchange(blocked_, {})) push(side);
     }
   }
 
  private:
   void push_sides(int face) {
-    for (const int side : mesh_.sides(face)) push(Mesh::edge_of(side));
+    for (const int side : Mesh::sides(face)) push(side);
   }
 
-  void push(int edge) {
+  void push(int side) {
+    const int edge = mesh_.lower(side);
     if (!mesh_.is_flippable(edge) || !flip_untangles(mesh_, edge)) return;
-    queue_.push_back({gain_of(mesh_, edge), side_along(mesh_, lower_side(mesh_, edge))});
+    queue_.push_back({gain_of(mesh_, edge), edge});
     std::push_heap(queue_.begin(), queue_.end());
   }
 
@@ -137,21 +125,21 @@ class EdgeFlips::Run {
 
   // Flips beside an edge have put it into the queue again, and what was in there before means nothing.
   void visit(const Candidate& candidate) {
-    const int edge = Mesh::edge_of(halfedge_at(mesh_, candidate.side));
+    const int edge = mesh_.lower(candidate.side);
     if (!mesh_.is_flippable(edge) || candidate.gain != gain_of(mesh_, edge) || !flip_untangles(mesh_, edge))
       return;
     if (would_double(mesh_, edge)) {
       blocked_.push_back(candidate.side);  // until the other edge goes
       return;
     }
-    const auto [low, high] = std::minmax({mesh_.face_of(2 * edge), mesh_.face_of(2 * edge + 1)});
+    const int left = Mesh::face_of(edge), right = mesh_.face_across(edge);
     flip(edge);
-    push_sides(low);
-    push_sides(high);
+    push_sides(left);
+    push_sides(right);
   }
 
   void flip(int edge) {
-    const int left = set_of(mesh_.face_of(2 * edge)), right = set_of(mesh_.face_of(2 * edge + 1));
+    const int left = set_of(Mesh::face_of(edge)), right = set_of(mesh_.face_across(edge));
     if (left != right) join(left, right);
     undo_.flip(edge);
     ++n_flips_;
@@ -199,11 +187,11 @@ RepairOutcome EdgeFlips::repair(Mesh& mesh, const RepairOptions& options) {
   // Regions are described as they were.
   const Stopwatch describing;
   record.escaped = count_escaped(mesh, options);
-  const Patch result = state_of(mesh, faces);
+  const auto result = states_of(mesh, faces);
   undo.take_back();
   record.regions = describe_regions(mesh);
   record.replaced = static_cast<int>(faces.size());
-  mesh.splice(result);
+  mesh.restore(result);
   record.splice_ms = describing.milliseconds();
   return outcome;
 }

@@ -12,7 +12,7 @@
 namespace kinemesh {
 
 // Whether flipping the edge makes the inverted area smaller (the sum of the areas of all inverted faces), or
-// leaves it as it is and makes flat faces fewer. Exact. Pre: mesh.is_flippable(edge).
+// leaves it as it is and makes flat faces fewer. Exact. edge: one of its sides. Pre: mesh.is_flippable(edge).
 bool flip_untangles(const Mesh& mesh, int edge);
 
 // Flips edges of inverted and flat faces as long as some flip makes the inverted area smaller, or, that area

@@ -6,7 +6,6 @@
 
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
-#include "kinemesh/delaunay.h"
 #include "kinemesh/error.h"
 #include "untangle/fill/hole.h"
 #include "untangle/fill/records.h"
@@ -22,17 +21,6 @@ void require_before(const Mesh& mesh, std::span<const Point> before) {
   throw InputError("strategy kinetic: " + std::to_string(before.size()) +
                    " positions before the move, those of all " + std::to_string(mesh.n_vertices()) +
                    " vertices expected; a step has them, a file alone has not");
-}
-
-// These faces as they are now, ready to be written again.
-Patch state_of(const Mesh& mesh, std::vector<int> faces) {
-  auto edges = edges_of(mesh, faces);
-  return mesh.inverse_of({.faces = std::move(faces),
-                          .triangles = {},
-                          .labels = {},
-                          .halfedges = {},
-                          .edges = std::move(edges),
-                          .constraints = {}});
 }
 
 }  // namespace
@@ -63,11 +51,11 @@ RepairOutcome KineticUntangling::repair(Mesh& mesh, const RepairOptions& options
   const Stopwatch describing;
   record.escaped = count_escaped(mesh, options);
   const auto rewritten = undo.rewritten_faces();
-  const Patch result = state_of(mesh, rewritten);
+  const auto result = states_of(mesh, rewritten);
   undo.take_back();
   find_regions(mesh, rewritten);
   describe_regions(mesh, record);
-  mesh.splice(result);
+  mesh.restore(result);
   record.splice_ms = describing.milliseconds();
   return outcome;
 }
@@ -104,7 +92,7 @@ void KineticUntangling::find_regions(const Mesh& mesh, std::span<const int> rewr
     while (!pending.empty()) {
       const int face = pending.back();
       pending.pop_back();
-      for (const int side : mesh.sides(face)) take(mesh.face_of(Mesh::opposite(side)), region);
+      for (const int side : mesh.sides(face)) take(mesh.face_across(side), region);
     }
     regions_.sort(region);
   }

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/base/parallel.h"
+#include "core/mesh/around.h"
 #include "core/sweep/face_sweep.h"
 #include "untangle/walk/detect.h"
 
@@ -40,27 +41,14 @@ struct Quadrilateral {
 };
 
 Quadrilateral around(const Mesh& mesh, int edge) {
-  const int h = 2 * edge, o = Mesh::opposite(h);
-  return {mesh.from(h), mesh.to(h), mesh.to(mesh.next(h)), mesh.to(mesh.next(o))};
+  return {mesh.from(edge), mesh.to(edge), mesh.apex(edge), mesh.apex(mesh.opposite(edge))};
 }
 
 Edge sorted(int a, int b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-// While something is tangled an edge may be there already. Looks around both in turn, so that one with many
-// neighbours costs no more than the other.
-bool are_joined(const Mesh& mesh, int c, int d) {
-  const int first_c = mesh.outgoing(c), first_d = mesh.outgoing(d);
-  int h = first_c, g = first_d;
-  do {
-    if (mesh.to(h) == d || mesh.to(g) == c) return true;
-    h = Mesh::opposite(mesh.prev(h));
-    g = Mesh::opposite(mesh.prev(g));
-  } while (h != first_c && g != first_d);
-  return false;
-}
-
+// While something is tangled an edge may be there already.
 bool can_be_flipped(const Mesh& mesh, int edge) {
   if (!mesh.is_flippable(edge)) return false;
   const auto q = around(mesh, edge);
@@ -130,8 +118,8 @@ void KineticFlips::settle() {
 
 bool KineticFlips::improve(int face) {
   for (const int side : mesh_.sides(face)) {
-    if (!leaves_upright_faces(Mesh::edge_of(side))) continue;
-    flip(Mesh::edge_of(side));
+    if (!leaves_upright_faces(side)) continue;
+    flip(side);
     return true;
   }
   return flip_on_line(face) || flip_beside_meeting(face);
@@ -148,7 +136,7 @@ bool KineticFlips::flip_on_line(int face) {
   if (!is_flat(corners)) return false;
   const int inner = inner_corner(corners);
   if (inner == none) return false;
-  const int longest = Mesh::edge_of(mesh_.sides(face)[(inner + 1) % 3]);
+  const int longest = Mesh::side(face, (inner + 1) % 3);
   if (!can_be_flipped(mesh_, longest)) return false;
   const auto [a, b, c, d] = around(mesh_, longest);
   if (!is_flat({a, b, c}) || !is_flat({b, a, d}) || !gone_.insert(sorted(a, b)).second) return false;
@@ -164,13 +152,12 @@ bool KineticFlips::flip_beside_meeting(int face) {
     const int u = corners[k], v = corners[(k + 1) % 3];
     if (!have_met(u, v)) continue;
     for (const int side : {sides[(k + 1) % 3], sides[(k + 2) % 3]}) {
-      const int edge = Mesh::edge_of(side);
-      if (!can_be_flipped(mesh_, edge)) continue;
-      const auto [a, b, c, d] = around(mesh_, edge);
+      if (!can_be_flipped(mesh_, side)) continue;
+      const auto [a, b, c, d] = around(mesh_, side);
       const bool starts_there = a == u || a == v;
       if (!is_upright(starts_there ? Triangle{d, b, c} : Triangle{c, a, d})) continue;
       if (!gone_.insert(sorted(a, b)).second) continue;
-      flip(edge);
+      flip(side);
       return true;
     }
   }
@@ -178,14 +165,14 @@ bool KineticFlips::flip_beside_meeting(int face) {
 }
 
 void KineticFlips::flip(int edge) {
+  const auto [low, high] = std::minmax({Mesh::face_of(edge), mesh_.face_across(edge)});
   undo_.flip(edge);
   ++counts_.flips;
-  const auto [low, high] = std::minmax({mesh_.face_of(2 * edge), mesh_.face_of(2 * edge + 1)});
   for (const int face : {low, high}) {
     if (!is_at_end_) schedule(face, &now_);
     doubtful_.push_back(face);
     for (const int side : mesh_.sides(face)) {
-      const int across = mesh_.face_of(Mesh::opposite(side));
+      const int across = mesh_.face_across(side);
       if (across != none) doubtful_.push_back(across);
     }
   }

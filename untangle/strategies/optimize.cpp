@@ -104,7 +104,7 @@ class VertexOptimization::Run {
     for (int ring = 0; ring < rings; ++ring) {
       sort_unique(vertices);
       for (std::size_t i = 0, n = vertices.size(); i < n; ++i)
-        for_each_outgoing(mesh_, vertices[i], [&](int h) { vertices.push_back(mesh_.to(h)); });
+        for_each_neighbour(mesh_, vertices[i], [&](int w, int) { vertices.push_back(w); });
     }
     sort_unique(vertices);
     std::erase_if(vertices, [&](int v) { return !is_movable(mesh_, v); });
@@ -115,7 +115,7 @@ class VertexOptimization::Run {
     auto faces = all_of(left_);
     for (const int v : vertices) {
       if (!is_restless_[v] || !visit(v)) continue;
-      for_each_outgoing(mesh_, v, [&](int h) { faces.push_back(mesh_.face_of(h)); });
+      for_each_side_from(mesh_, v, [&](int side) { faces.push_back(Mesh::face_of(side)); });
     }
     sort_unique(faces);
     left_ = tangles_among(mesh_, faces);
@@ -125,8 +125,8 @@ class VertexOptimization::Run {
     is_restless_[v] = false;
     auto& link = own_.link_;
     link.clear();
-    for_each_outgoing(mesh_, v, [&](int h) {
-      link.push_back({mesh_.position(mesh_.to(h)), mesh_.position(mesh_.to(mesh_.next(h)))});
+    for_each_side_from(mesh_, v, [&](int side) {
+      link.push_back({mesh_.position(mesh_.to(side)), mesh_.position(mesh_.apex(side))});
     });
     const auto place = place_of(link, mesh_.position(v));
     if (!place || !is_better(link, mesh_.position(v), *place)) return false;
@@ -152,7 +152,7 @@ class VertexOptimization::Run {
     if (!own_.is_moved_[v]) own_.moved_.emplace_back(v, mesh_.position(v));
     own_.is_moved_[v] = true;
     mesh_.positions()[v] = place;
-    for_each_outgoing(mesh_, v, [&](int h) { is_restless_[mesh_.to(h)] = true; });
+    for_each_neighbour(mesh_, v, [&](int w, int) { is_restless_[w] = true; });
   }
 
   VertexOptimization& own_;

@@ -90,7 +90,7 @@ Components inverted_components(const Mesh& mesh, std::span<const int> inverted) 
       const int face = inverted[pending.back()];
       pending.pop_back();
       for (const int h : mesh.sides(face)) {
-        const int neighbour = mesh.face_of(Mesh::opposite(h));
+        const int neighbour = mesh.face_across(h);
         const int rank = neighbour == none ? none : ranks.of(neighbour);
         if (rank == none || components.of[rank] != none) continue;
         components.of[rank] = components.count;

@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::size_t seeds_ahead = 16;
 
-void fetch(const Mesh& mesh, int halfedge) {
-  __builtin_prefetch(&mesh.connectivity().halfedge(OpenMesh::HalfedgeHandle(halfedge)));
-}
-
 }  // namespace
 
 void GlobalWalk::run(const Mesh& mesh, const Tangles& tangles, FaceSets& regions) {
@@ -65,16 +61,17 @@ void GlobalWalk::walk_from(int seed) {
 // A walk waits for memory at each step, since the next face is known only once the last has come. So what
 // lies around some seeds is asked for side by side beforehand.
 void GlobalWalk::fetch_around(std::span<const int> seeds) const {
-  std::array<Triangle, seeds_ahead> sides, neighbours;
-  for (std::size_t i = 0; i < seeds.size(); ++i) sides[i] = mesh_->sides(seeds[i]);
+  std::array<Triangle, seeds_ahead> neighbours;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
-    for (int k = 0; k < 3; ++k) neighbours[i][k] = mesh_->face_of(Mesh::opposite(sides[i][k]));
+    for (int k = 0; k < 3; ++k) {
+      neighbours[i][k] = mesh_->face_across(Mesh::side(seeds[i], k));
+      if (neighbours[i][k] != none) mesh_->fetch(neighbours[i][k]);
+    }
   }
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     for (const int face : neighbours[i]) {
       if (face == none) continue;
       for (const int v : mesh_->triangles()[face]) __builtin_prefetch(&mesh_->position(v));
-      for (const int side : mesh_->sides(face)) fetch(*mesh_, side);
     }
   }
 }
@@ -89,7 +86,7 @@ void GlobalWalk::leave(int face) {
   const bool all_sides = is_tangled_[face];  // rule (i)
   bool has_near = false;
   for (const int side : mesh_->sides(face)) {
-    const int across = mesh_->face_of(Mesh::opposite(side));
+    const int across = mesh_->face_across(side);
     if (across == none || regions_->set_of(across) == region_) continue;
     const bool is_in = all_sides || is_tangled_[across];
     if (!is_in && !has_near) shadows_.find_near(mesh_->corners(face), near_);

@@ -4,7 +4,7 @@ namespace kinemesh::test {
 
 Patch flip_of(const Mesh& mesh, int h) {
   const int o = Mesh::opposite(h), left = mesh.face_of(h), right = mesh.face_of(o);
-  const int a = mesh.from(h), b = mesh.to(h), c = mesh.to(mesh.next(h)), d = mesh.to(mesh.next(o));
+  const int a = mesh.from(h), b = mesh.to(h), c = mesh.apex(h), d = mesh.apex(o);
   Patch patch;
   patch.faces = {left, right};
   patch.triangles = {{d, b, c}, {c, a, d}};
@@ -17,9 +17,8 @@ Patch flip_of(const Mesh& mesh, int h) {
 
 bool can_flip(const Mesh& mesh, int h) {
   const int o = Mesh::opposite(h);
-  if (mesh.face_of(h) == none || mesh.face_of(o) == none || mesh.constraint_of(Mesh::edge_of(h)) != none)
-    return false;
-  const int c = mesh.to(mesh.next(h)), d = mesh.to(mesh.next(o));
+  if (mesh.face_of(h) == none || mesh.face_of(o) == none || mesh.constraint_of(h) != none) return false;
+  const int c = mesh.apex(h), d = mesh.apex(o);
   for (int g = 0; g < 2 * mesh.n_edges(); ++g) {
     if (mesh.from(g) == c && mesh.to(g) == d) return false;
   }

@@ -8,8 +8,7 @@ Snapshot snapshot_of(const Mesh& mesh) {
     snapshot.faces.push_back({mesh.triangles()[f], mesh.sides(f), mesh.label(f), mesh.user_face(f)});
   }
   for (int h = 0; h < 2 * mesh.n_edges(); ++h) {
-    snapshot.halfedges.push_back(
-        {mesh.to(h), mesh.next(h), mesh.face_of(h), mesh.constraint_of(Mesh::edge_of(h))});
+    snapshot.halfedges.push_back({mesh.to(h), mesh.next(h), mesh.face_of(h), mesh.constraint_of(h)});
   }
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     snapshot.outgoing.push_back(mesh.outgoing(v));

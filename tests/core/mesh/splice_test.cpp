@@ -54,7 +54,7 @@ TEST(Splice, KeepsHalfEdgesMirrorAndOpenMeshInStep) {
     for (int flip = 0; flip < 150; ++flip) {
       const int h = random.below(2 * mesh.n_edges());
       if (!can_flip(mesh, h)) continue;
-      const int c = mesh.to(mesh.next(h)), d = mesh.to(mesh.next(Mesh::opposite(h)));
+      const int c = mesh.apex(h), d = mesh.to(mesh.next(Mesh::opposite(h)));
       mesh.splice(flip_of(mesh, h));
       EXPECT_EQ(mesh.from(h), c);
       EXPECT_EQ(mesh.to(h), d);

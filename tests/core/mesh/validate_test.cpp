@@ -116,7 +116,7 @@ TEST(Validate, SeesAConstraintInAnothersPlace) {
   Mesh mesh = build_mesh(data);
   const int h = halfedge_between(mesh, 4, 0);
   auto patch = flip_of(mesh, h);
-  patch.constraints = {mesh.constraint_of(Mesh::edge_of(h))};
+  patch.constraints = {mesh.constraint_of(h)};
   mesh.splice(patch);
   EXPECT_EQ(defect_of(mesh).kind, DefectKind::MissingEdge);
   EXPECT_THAT(defect_of(mesh).message(), HasSubstr("its place is taken"));

@@ -60,7 +60,7 @@ void Sheets::find_components() {
       const int face = pending.back();
       pending.pop_back();
       for (const int side : mesh_.sides(face)) {
-        const int beyond = mesh_.face_of(Mesh::opposite(side));
+        const int beyond = mesh_.face_across(side);
         if (beyond == none || !inverted_[beyond] || component_[beyond] != none) continue;
         component_[beyond] = n_components_;
         pending.push_back(beyond);

@@ -104,14 +104,14 @@ TEST(Retention, MakesAFlipOfAVertexThatGoesThroughAnEdge) {
   const auto [face, k] = [&] {
     for (int f = 0; f < mesh.n_faces(); ++f) {
       for (int i = 0; i < 3; ++i) {
-        const int across = mesh.face_of(Mesh::opposite(mesh.sides(f)[i]));
+        const int across = mesh.face_across(mesh.sides(f)[i]);
         const int v = mesh.triangles()[f][(i + 2) % 3];
         if (across != none && !mesh.is_constrained(v)) return std::pair(f, i);
       }
     }
     return std::pair(none, none);
   }();
-  const int side = mesh.sides(face)[k], across = mesh.face_of(Mesh::opposite(side));
+  const int side = mesh.sides(face)[k], across = mesh.face_across(side);
   const auto [a, b, c] = mesh.corners(across);
   const Point middle = 0.5 * (mesh.position(mesh.from(side)) + mesh.position(mesh.to(side)));
   mesh.positions()[mesh.triangles()[face][(k + 2) % 3]] = middle + 0.125 * ((a + b + c) / 3.0 - middle);

@@ -109,7 +109,7 @@ void compare_blobs(const Mesh& mesh, Random& random, Tally& tally) {
       if (next > 0 && random.one_in(6)) continue;
       sets.add(met[next], set);
       for (const int side : mesh.sides(met[next])) {
-        const int across = mesh.face_of(Mesh::opposite(side));
+        const int across = mesh.face_across(side);
         if (across != none && seen.insert(across).second) met.push_back(across);
       }
     }

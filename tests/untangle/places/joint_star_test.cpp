@@ -119,7 +119,7 @@ TEST(JointStar, GetsPastWhereSingleVerticesAreStuck) {
       for (const auto& [v, along] : free) {
         std::vector<LinkEdge> link;
         for_each_outgoing(mesh, v, [&](int h) {
-          link.push_back({mesh.position(mesh.to(h)), mesh.position(mesh.to(mesh.next(h)))});
+          link.push_back({mesh.position(mesh.to(h)), mesh.position(mesh.apex(h))});
         });
         const Point best = optimal_point(link, mesh.position(v));
         if (smallest_angle(link, best) <= 1.0001 * smallest_angle(link, mesh.position(v))) continue;

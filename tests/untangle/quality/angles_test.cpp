@@ -54,9 +54,9 @@ double smallest(const std::array<Point, 3>& corners) {
 
 std::string flip_that_helps(const Mesh& mesh, int face) {
   for (const int h : mesh.sides(face)) {
-    if (!mesh.is_flippable(Mesh::edge_of(h))) continue;
+    if (!mesh.is_flippable(h)) continue;
     Mesh flipped = mesh;
-    const int other = mesh.face_of(Mesh::opposite(h));
+    const int other = mesh.face_across(h);
     flipped.flip(Mesh::edge_of(h));
     if (!is_upright(flipped, face) || !is_upright(flipped, other)) continue;
     const double before = std::min(smallest(mesh.corners(face)), smallest(mesh.corners(other)));
@@ -70,7 +70,7 @@ std::string flip_that_helps(const Mesh& mesh, int face) {
 bool is_well_placed(const Mesh& mesh, int vertex) {
   std::vector<LinkEdge> link;
   for_each_outgoing(mesh, vertex, [&](int h) {
-    link.push_back({mesh.position(mesh.to(h)), mesh.position(mesh.to(mesh.next(h)))});
+    link.push_back({mesh.position(mesh.to(h)), mesh.position(mesh.apex(h))});
   });
   const Point x = mesh.position(vertex);
   return smallest_angle(link, optimal_point(link, x)) <= 1.0002 * smallest_angle(link, x);
@@ -367,7 +367,7 @@ TEST(Angles, LetVerticesSlideAlongTheirLinesInOrder) {
     }
     for (const auto& [v, t] : freedom.tangents) {  // its neighbours along the border are still on either side
       for_each_outgoing(mesh, v, [&, v = v, t = t](int h) {
-        if (mesh.constraint_of(Mesh::edge_of(h)) == none) return;
+        if (mesh.constraint_of(h) == none) return;
         const Point now = mesh.position(mesh.to(h)) - mesh.position(v);
         const Point then = before.position(mesh.to(h)) - before.position(v);
         EXPECT_GT((now.x * t.x + now.y * t.y) * (then.x * t.x + then.y * t.y), 0.0) << seed;

@@ -21,8 +21,8 @@ constexpr RepairOptions allowing{.allow_escaped = true};
 bool can_flip_in_place(const Mesh& mesh, int edge) {
   if (!mesh.is_flippable(edge)) return false;
   const int h = 2 * edge, o = h + 1;
-  return segments_cross(mesh.position(mesh.from(h)), mesh.position(mesh.to(h)),
-                        mesh.position(mesh.to(mesh.next(h))), mesh.position(mesh.to(mesh.next(o))));
+  return segments_cross(mesh.position(mesh.from(h)), mesh.position(mesh.to(h)), mesh.position(mesh.apex(h)),
+                        mesh.position(mesh.apex(o)));
 }
 
 int flip_at_random(Mesh& mesh, int attempts, std::uint64_t seed) {

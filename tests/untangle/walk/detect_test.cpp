@@ -135,7 +135,7 @@ void flip_some(Mesh& mesh, Random& random, FaceMinima& minima) {
   for (int i = 0; i < 300; ++i) {
     const int edge = random.below(mesh.n_edges()), h = 2 * edge;
     if (!mesh.is_flippable(edge)) continue;
-    const int a = mesh.from(h), b = mesh.to(h), c = mesh.to(mesh.next(h)), d = mesh.to(mesh.next(h + 1));
+    const int a = mesh.from(h), b = mesh.to(h), c = mesh.apex(h), d = mesh.to(mesh.next(h + 1));
     if (!is_upright(mesh, d, b, c) || !is_upright(mesh, c, a, d)) continue;
     mesh.flip(edge);
     minima.outdate(std::array{mesh.face_of(h), mesh.face_of(h + 1)});
