@@ -89,7 +89,7 @@ int Mesh::rewrite_from_lowest(int face, Triangle corners) noexcept {
   return side(face, (3 - lowest) % 3);
 }
 
-void Mesh::flip(int side) noexcept {
+int Mesh::flip(int side) noexcept {
   const int h = lower(side), o = opposite(h);
   const int a = from(h), b = to(h), c = apex(h), d = apex(o);
   const std::array<int, 4> outer{prev(o), next(h), prev(h), next(o)};  // db, bc, ca, ad
@@ -106,6 +106,7 @@ void Mesh::flip(int side) noexcept {
   link(prev(db), prev(ca) << 1);
   for (int i = 0; i < 4; ++i)
     if (numbers[i] != none) remember_constraint(numbers[i], now[i]);
+  return prev(db);
 }
 
 FaceState Mesh::save(int face) const {

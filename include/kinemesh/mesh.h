@@ -124,13 +124,13 @@ class Mesh {
 
   // Turns an edge between two faces into their other diagonal, within the same two faces. Of side a -> b of the lower
   // face that one becomes dbc; both start at their lowest corner. Nothing else changes. Pre: is_flippable(side),
-  // c != d.
+  // c != d. Returns the lower side of the new edge.
   //      c             c
   //    /   \         / | \       .
   //   a --> b  ->   a  |  b
   //    \   /         \ | /
   //      d             d
-  void flip(int side) noexcept;
+  int flip(int side) noexcept;
 
   // Rewrites patch.faces in place; nothing else changes. Uses the patch up. Pre: the patch covers the same vertices and
   // has the same border as its faces. Cost: O(patch). Takes no memory.

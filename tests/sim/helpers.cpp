@@ -58,12 +58,11 @@ Snapshot snapshot(const Mesh& mesh) {
   s.positions.assign(mesh.positions().begin(), mesh.positions().end());
   s.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
   for (int f = 0; f < mesh.n_faces(); ++f) s.labels.push_back(mesh.label(f));
-  for (int h = 0; h < 2 * mesh.n_edges(); ++h)
-    for (const int link : {mesh.next(h), mesh.to(h), mesh.face_of(h), mesh.constraint_of(h)})
-      s.halfedges.push_back(link);
-  for (int f = 0; f < mesh.n_faces(); ++f)
-    for (const int link : {mesh.halfedge_of(f), mesh.user_face(f)}) s.faces.push_back(link);
-  for (int v = 0; v < mesh.n_vertices(); ++v) s.outgoing.push_back(mesh.outgoing(v));
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    s.faces.push_back(mesh.user_face(f));
+    for (const int side : Mesh::sides(f))
+      for (const int link : {mesh.opposite(side), mesh.constraint_of(side)}) s.sides.push_back(link);
+  }
   return s;
 }
 

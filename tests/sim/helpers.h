@@ -24,9 +24,8 @@ struct Snapshot {
   std::vector<Point> positions;
   std::vector<Triangle> triangles;
   std::vector<int> labels;
-  std::vector<int> halfedges;  // next, to, face and constraint of each
-  std::vector<int> faces;      // half-edge and user's number of each
-  std::vector<int> outgoing;   // per vertex
+  std::vector<int> sides;  // opposite and constraint of each
+  std::vector<int> faces;  // user's number of each
   bool operator==(const Snapshot&) const = default;
 };
 Snapshot snapshot(const Mesh& mesh);

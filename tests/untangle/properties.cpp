@@ -190,12 +190,13 @@ std::string outside_changed(const Mesh& before, const Mesh& after, const RepairR
   const auto replaced = replaced_faces(before, record);
   const auto old_state = snapshot_of(before), new_state = snapshot_of(after);
   for (int f = 0; f < before.n_faces(); ++f) {
-    if (!replaced[f] && old_state.faces[f] != new_state.faces[f]) return "changed face " + to_string(f);
-  }
-  for (int h = 0; h < 2 * before.n_edges(); ++h) {
-    const int face = before.face_of(h);
-    if ((face == none || !replaced[face]) && old_state.halfedges[h] != new_state.halfedges[h])
-      return "changed half-edge " + to_string(h);
+    if (replaced[f]) continue;
+    auto old_face = old_state.faces[f], new_face = new_state.faces[f];
+    for (int k = 0; k < 3; ++k) {
+      const int across = before.face_across(Mesh::side(f, k));
+      if (across != none && replaced[across]) old_face.opposite[k] = new_face.opposite[k] = none;
+    }
+    if (old_face != new_face) return "changed face " + to_string(f);
   }
   if (old_state.coordinates != new_state.coordinates) return "moved a vertex";
   return "";

@@ -25,13 +25,6 @@ bool is_locally_delaunay(const Mesh& mesh, int edge) {
                    at(mesh.apex(mesh.opposite(edge)))) != Side::Inside;
 }
 
-// The side of a face across from another.
-int side_between(const Mesh& mesh, int face, int other) {
-  for (const int side : Mesh::sides(face))
-    if (mesh.face_across(side) == other) return side;
-  return none;
-}
-
 }  // namespace
 
 // It ends. A repair takes at least one inverted or flat face out of the mesh, and neither repairs nor flips
@@ -119,13 +112,11 @@ void DelaunayFlipping::untangle(Mesh& mesh, int face, const RepairOptions& optio
 
 // The four edges around it are looked at again.
 void DelaunayFlipping::flip(Mesh& mesh, int edge) {
-  const int left = Mesh::face_of(edge), right = mesh.face_across(edge);
-  mesh.flip(edge);
-  for (const int face : {left, right}) {
-    note_flipped(face);
-    const int diagonal = side_between(mesh, face, left + right - face);
-    push(Mesh::next(diagonal));
-    push(Mesh::prev(diagonal));
+  const int turned = mesh.flip(edge);
+  for (const int side : {turned, mesh.opposite(turned)}) {
+    note_flipped(Mesh::face_of(side));
+    push(Mesh::next(side));
+    push(Mesh::prev(side));
   }
 }
 

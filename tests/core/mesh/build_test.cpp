@@ -13,6 +13,7 @@
 #include "kinemesh/measure.h"
 #include "kinemesh/predicates.h"
 #include "kinemesh/validate.h"
+#include "tests/core/mesh/edges.h"
 #include "tests/core/mesh/sample_meshes.h"
 
 namespace kinemesh::test {
@@ -106,8 +107,8 @@ TEST(Build, OrdersVerticesAlongACurve) {
   }
 }
 
-int label_beside(const Mesh& mesh, int halfedge) {
-  const int face = mesh.face_of(halfedge);
+int label_beside(const Mesh& mesh, int side) {
+  const int face = Mesh::face_of(side);
   return face == none ? padding_label : mesh.label(face);
 }
 
@@ -115,18 +116,22 @@ TEST(Build, ConstrainsBordersInterfacesAndMarkersWithTheirSides) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Mesh mesh = build_mesh(decorated(seed), {.frame = 0.25});
     int seen = 0;
-    for (int e = 0; e < mesh.n_edges(); ++e) {
+    for (const int e : all_edges(mesh)) {
       const int c = mesh.constraint_of(e);
       if (c == none) {
-        EXPECT_EQ(label_beside(mesh, 2 * e), label_beside(mesh, 2 * e + 1));
+        EXPECT_EQ(label_beside(mesh, e), label_beside(mesh, mesh.opposite(e)));
         continue;
       }
       ++seen;
       const auto& constraint = mesh.constraints()[c];
-      const int h = mesh.from(2 * e) == constraint.from ? 2 * e : 2 * e + 1;
-      EXPECT_EQ(mesh.to(h), constraint.to);
-      EXPECT_EQ(label_beside(mesh, h), constraint.left);
-      EXPECT_EQ(label_beside(mesh, h ^ 1), constraint.right);
+      const bool is_along = mesh.from(e) == constraint.from;
+      const int left = is_along ? e : mesh.opposite(e), right = is_along ? mesh.opposite(e) : e;
+      EXPECT_EQ(is_along ? mesh.to(e) : mesh.from(e), constraint.to);
+      EXPECT_EQ(label_beside(mesh, left), constraint.left);
+      EXPECT_EQ(label_beside(mesh, right), constraint.right);
+      if (mesh.opposite(e) != none) {
+        EXPECT_EQ(mesh.constraint_of(mesh.opposite(e)), c);
+      }
       EXPECT_NE(constraint.left, padding_label) << "the domain is to the left of a border";
       EXPECT_TRUE(mesh.is_constrained(constraint.from) && mesh.is_constrained(constraint.to));
     }

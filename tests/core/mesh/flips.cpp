@@ -2,26 +2,31 @@
 
 namespace kinemesh::test {
 
-Patch flip_of(const Mesh& mesh, int h) {
-  const int o = Mesh::opposite(h), left = mesh.face_of(h), right = mesh.face_of(o);
+Patch flip_of(const Mesh& mesh, int side) {
+  const int h = mesh.lower(side), o = mesh.opposite(h), left = Mesh::face_of(h), right = Mesh::face_of(o);
   const int a = mesh.from(h), b = mesh.to(h), c = mesh.apex(h), d = mesh.apex(o);
   Patch patch;
   patch.faces = {left, right};
   patch.triangles = {{d, b, c}, {c, a, d}};
   patch.labels = {mesh.label(left), mesh.label(right)};
-  patch.halfedges = {{mesh.prev(o), mesh.next(h), h}, {mesh.prev(h), mesh.next(o), o}};
-  patch.edges = {Mesh::edge_of(h)};
-  patch.constraints = {none};
+  const std::array<Triangle, 2> border{Triangle{Mesh::prev(o), Mesh::next(h), none},
+                                       Triangle{Mesh::prev(h), Mesh::next(o), none}};
+  for (int i = 0; i < 2; ++i) {
+    patch.across.push_back({~border[i][0], ~border[i][1], Mesh::side(1 - i, 2)});
+    for (int k = 0; k < 2; ++k)
+      if (const int c_there = mesh.constraint_of(border[i][k]); c_there != none)
+        patch.lines.push_back({Mesh::side(i, k), c_there});
+  }
   return patch;
 }
 
-bool can_flip(const Mesh& mesh, int h) {
-  const int o = Mesh::opposite(h);
-  if (mesh.face_of(h) == none || mesh.face_of(o) == none || mesh.constraint_of(h) != none) return false;
-  const int c = mesh.apex(h), d = mesh.apex(o);
-  for (int g = 0; g < 2 * mesh.n_edges(); ++g) {
-    if (mesh.from(g) == c && mesh.to(g) == d) return false;
-  }
+bool can_flip(const Mesh& mesh, int side) {
+  const int o = mesh.opposite(side);
+  if (o == none || mesh.constraint_of(side) != none) return false;
+  const int c = mesh.apex(side), d = mesh.apex(o);
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    for (const int s : Mesh::sides(f))
+      if ((mesh.from(s) == c && mesh.to(s) == d) || (mesh.from(s) == d && mesh.to(s) == c)) return false;
   return c != d;
 }
 

@@ -7,21 +7,15 @@
 
 namespace kinemesh::test {
 
-struct FaceState {
-  Triangle corners, sides;
+struct FaceSnapshot {
+  Triangle corners, opposite, constraints;  // per side the two latter
   int label, user_face;
-  bool operator==(const FaceState&) const = default;
-};
-
-struct HalfedgeState {
-  int to, next, face, constraint;
-  bool operator==(const HalfedgeState&) const = default;
+  bool operator==(const FaceSnapshot&) const = default;
 };
 
 struct Snapshot {
-  std::vector<FaceState> faces;
-  std::vector<HalfedgeState> halfedges;
-  std::vector<int> outgoing;
+  std::vector<FaceSnapshot> faces;
+  std::vector<int> fans;  // per vertex: where its fan starts, or none
   std::vector<double> coordinates;
   bool operator==(const Snapshot&) const = default;
 };

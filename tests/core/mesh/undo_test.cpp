@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/mesh/edges.h"
 #include "tests/core/mesh/snapshot.h"
 #include "tests/untangle/random_tangles.h"
 #include "untangle/fill/region_repair.h"
@@ -13,12 +14,10 @@ namespace kinemesh::test {
 namespace {
 
 void flip_some(Undo& undo, Random& random) {
-  const int n_edges = undo.mesh().n_edges();
-  for (int i = 0; i < n_edges; ++i) {
-    const int edge = random.below(n_edges), h = 2 * edge;
-    if (undo.mesh().is_flippable(edge) &&
-        undo.mesh().to(undo.mesh().next(h)) != undo.mesh().to(undo.mesh().next(Mesh::opposite(h))))
-      undo.flip(edge);
+  const Mesh& mesh = undo.mesh();
+  for (int i = 0; i < mesh.n_edges(); ++i) {
+    const int side = random_edge(mesh, random);
+    if (mesh.is_flippable(side) && mesh.apex(side) != mesh.apex(mesh.opposite(side))) undo.flip(side);
   }
 }
 

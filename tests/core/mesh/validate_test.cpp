@@ -31,10 +31,12 @@ Mesh square_with_centre_at(const Point& p) {
   return mesh;
 }
 
-int halfedge_between(const Mesh& mesh, int user_a, int user_b) {
-  int h = 0;
-  while (mesh.from(h) != mesh.vertex_of_user(user_a) || mesh.to(h) != mesh.vertex_of_user(user_b)) ++h;
-  return h;
+int side_between(const Mesh& mesh, int user_a, int user_b) {
+  for (int face = 0; face < mesh.n_faces(); ++face)
+    for (const int side : Mesh::sides(face))
+      if (mesh.user_vertex(mesh.from(side)) == user_a && mesh.user_vertex(mesh.to(side)) == user_b)
+        return side;
+  return none;
 }
 
 TEST(Validate, FindsNothingInGoodMeshes) {
@@ -90,20 +92,21 @@ TEST(Validate, SeesAHullThatGoesAroundTwice) {
   EXPECT_THAT(defect.message(), HasSubstr("more than once"));
 }
 
-TEST(Validate, SeesAMirrorThatDiffersFromTheHalfEdges) {
+TEST(Validate, SeesSidesThatDoNotBelongTogether) {
   Mesh mesh = build_mesh(four_triangles());
-  auto patch = flip_of(mesh, halfedge_between(mesh, 4, 0));
-  std::swap(patch.halfedges[0], patch.halfedges[1]);
+  auto patch = flip_of(mesh, side_between(mesh, 4, 0));
+  std::swap(patch.across[0], patch.across[1]);
   mesh.splice(patch);
   EXPECT_EQ(defect_of(mesh).kind, DefectKind::Connectivity);
-  EXPECT_THAT(defect_of(mesh).message(), HasSubstr("half-edges and mirror"));
+  EXPECT_THAT(defect_of(mesh).message(), HasSubstr("the sides of an edge differ at face"));
 }
 
 TEST(Validate, MissesAConstrainedEdge) {
   auto data = four_triangles();
   data.markers = {{"wire", {{0, 4}}}};
   Mesh mesh = build_mesh(data);
-  mesh.splice(flip_of(mesh, halfedge_between(mesh, 4, 0)));
+  auto patch = flip_of(mesh, side_between(mesh, 4, 0));
+  mesh.splice(patch);
   const auto defect = defect_of(mesh);
   EXPECT_EQ(defect.kind, DefectKind::MissingEdge);
   EXPECT_THAT(defect.edges.at(0), UnorderedElementsAre(0, 4));
@@ -114,9 +117,9 @@ TEST(Validate, SeesAConstraintInAnothersPlace) {
   auto data = four_triangles();
   data.markers = {{"wire", {{0, 4}}}};
   Mesh mesh = build_mesh(data);
-  const int h = halfedge_between(mesh, 4, 0);
-  auto patch = flip_of(mesh, h);
-  patch.constraints = {mesh.constraint_of(h)};
+  const int side = side_between(mesh, 4, 0);
+  auto patch = flip_of(mesh, side);
+  patch.lines.push_back({Mesh::side(0, 2), mesh.constraint_of(side)});
   mesh.splice(patch);
   EXPECT_EQ(defect_of(mesh).kind, DefectKind::MissingEdge);
   EXPECT_THAT(defect_of(mesh).message(), HasSubstr("its place is taken"));
@@ -125,9 +128,9 @@ TEST(Validate, SeesAConstraintInAnothersPlace) {
 TEST(Validate, SeesLabelsThatMeetOrChange) {
   Random random(3);
   Mesh mesh = build_mesh(random_grid(4, 4, random));
-  int h = 0;
-  while (!can_flip(mesh, h)) ++h;
-  auto patch = flip_of(mesh, h);
+  int face = 0;
+  while (!can_flip(mesh, Mesh::side(face, 0))) ++face;
+  auto patch = flip_of(mesh, Mesh::side(face, 0));
   patch.labels[0] = 5;
   mesh.splice(patch);
   EXPECT_EQ(defect_of(mesh).kind, DefectKind::Connectivity);
@@ -137,10 +140,9 @@ TEST(Validate, SeesLabelsThatMeetOrChange) {
   single.points = {{0, 0}, {1, 0}, {0, 1}};
   single.triangles = {{0, 1, 2}};
   Mesh relabelled = build_mesh(single);
-  Patch same = relabelled.inverse_of(
-      {.faces = {0}, .triangles = {}, .labels = {}, .halfedges = {}, .edges = {}, .constraints = {}});
-  same.labels[0] = 5;
-  relabelled.splice(same);
+  FaceState same = relabelled.save(0);
+  same.label = 5;
+  relabelled.restore({&same, 1});
   EXPECT_EQ(defect_of(relabelled).kind, DefectKind::MissingEdge);
   EXPECT_THAT(defect_of(relabelled).message(), HasSubstr("labels have changed"));
 }

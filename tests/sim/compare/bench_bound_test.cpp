@@ -42,8 +42,10 @@ int crossings_of(const Mesh& mesh, const std::vector<int>& faces) {
   std::set<int> edges;
   for (const int face : faces)
     for (const int side : mesh.sides(face))
-      if (is_upright(mesh, face)) edges.insert(Mesh::edge_of(side));
-  const auto end = [&](int edge, int which) { return mesh.position(mesh.to(2 * edge + which)); };
+      if (is_upright(mesh, face)) edges.insert(mesh.lower(side));
+  const auto end = [&](int edge, int which) {
+    return mesh.position(which == 0 ? mesh.from(edge) : mesh.to(edge));
+  };
   int count = 0;
   for (const int e : edges)
     for (const int g : edges) count += e < g && segments_cross(end(e, 0), end(e, 1), end(g, 0), end(g, 1));

@@ -198,10 +198,10 @@ TEST(Checkpoint, StatesThatFitNoMeshAreRefused) {
   bad.triangles[5][1] = 1000;
   EXPECT_THAT(restore_error(origin, bad), HasSubstr("does not have"));
   bad = state;
-  bad.edge_constraints[2] = 1 << 20;
+  bad.constraint_sides[2] = 1 << 20;
   EXPECT_THAT(restore_error(origin, bad), HasSubstr("does not have"));
   bad = state;
-  std::swap(bad.sides[5], bad.sides[6]);
+  std::swap(bad.across[5], bad.across[6]);
   EXPECT_NE(restore_error(origin, bad), "none");
   bad = state;
   std::swap(bad.triangles[5], bad.triangles[6]);

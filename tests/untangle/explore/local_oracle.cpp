@@ -1,4 +1,5 @@
 #include "tests/untangle/explore/local_oracle.h"
+#include "tests/core/mesh/edges.h"
 
 #include <algorithm>
 #include <numeric>
@@ -36,11 +37,10 @@ LocalOracle::LocalOracle(const Sheets& sheets) : sheets_(sheets) {
     if (sheets.is_inverted(face)) shadow_of_[sheets.component(face)][cell] = true;
   }
   is_crease_vertex_.assign(sheets.plane().n_vertices, false);
-  for (int edge = 0; edge < sheets.mesh().n_edges(); ++edge) {
+  const Mesh& mesh = sheets.mesh();
+  for (const int edge : all_edges(mesh)) {
     if (!sheets.is_crease(edge)) continue;
-    for (const int h : {2 * edge, 2 * edge + 1}) {
-      is_crease_vertex_[sheets.plane().place_of[sheets.mesh().from(h)]] = true;
-    }
+    for (const int v : {mesh.from(edge), mesh.to(edge)}) is_crease_vertex_[sheets.plane().place_of[v]] = true;
   }
 }
 

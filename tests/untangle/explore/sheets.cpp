@@ -1,4 +1,5 @@
 #include "tests/untangle/explore/sheets.h"
+#include "tests/core/mesh/edges.h"
 
 #include <algorithm>
 
@@ -17,7 +18,7 @@ bool is_smaller(const Point& a, const Point& b) {
 }
 
 bool is_side(const Mesh& mesh, int face, int edge) {
-  return std::ranges::any_of(mesh.sides(face), [&](int side) { return Mesh::edge_of(side) == edge; });
+  return std::ranges::any_of(mesh.sides(face), [&](int side) { return mesh.lower(side) == edge; });
 }
 
 }  // namespace
@@ -27,7 +28,7 @@ Sheets::Sheets(const Mesh& mesh, Subdivision plane) : mesh_(mesh), plane_(std::m
     inverted_.push_back(turn(mesh, face) == Orientation::Clockwise);
   }
   find_components();
-  segments_of_edge_.resize(mesh.n_edges());
+  segments_of_edge_.resize(4 * static_cast<std::size_t>(mesh.n_faces()));
   segments_of_cell_.resize(plane_.n_cells);
   for (int s = 0; s < static_cast<int>(plane_.segments.size()); ++s) {
     const auto& segment = plane_.segments[s];
@@ -46,8 +47,8 @@ Sheets::Sheets(const Mesh& mesh, Subdivision plane) : mesh_(mesh), plane_(std::m
 }
 
 bool Sheets::is_crease(int edge) const {
-  const int f = mesh_.face_of(2 * edge), g = mesh_.face_of(2 * edge + 1);
-  return f != none && g != none && inverted_[f] != inverted_[g];
+  const int across = mesh_.face_across(edge);
+  return across != none && inverted_[Mesh::face_of(edge)] != inverted_[across];
 }
 
 void Sheets::find_components() {
@@ -98,7 +99,7 @@ void Sheets::cover(int face) {
 std::vector<int> Sheets::first_cells(int face) const {
   std::vector<int> cells;
   for (const int side : mesh_.sides(face)) {
-    for (const int s : segments_of_edge_[Mesh::edge_of(side)]) {
+    for (const int s : segments_of_edge_[mesh_.lower(side)]) {
       cells.push_back(inner_cell(plane_.segments[s], side));
     }
   }
@@ -108,7 +109,7 @@ std::vector<int> Sheets::first_cells(int face) const {
 // On the side of the half-edge's face: in the plane to the left if that is upright, to the right if inverted.
 int Sheets::inner_cell(const Subdivision::Segment& segment, int side) const {
   const bool forward = is_smaller(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side)));
-  return forward != inverted_[mesh_.face_of(side)] ? segment.left : segment.right;
+  return forward != inverted_[Mesh::face_of(side)] ? segment.left : segment.right;
 }
 
 int Sheets::lift_at(int face, int cell) const {
@@ -137,7 +138,8 @@ bool is_general(const Mesh& mesh, const Subdivision& plane) {
     for (const int end : segment.ends) ++degree[end];
   }
   std::vector<int> valence(mesh.n_vertices(), 0);
-  for (int h = 0; h < 2 * mesh.n_edges(); ++h) ++valence[mesh.from(h)];
+  for (const int edge : all_edges(mesh))
+    for (const int v : {mesh.from(edge), mesh.to(edge)}) ++valence[v];
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     const int place = plane.place_of[v];
     if (place == none) continue;

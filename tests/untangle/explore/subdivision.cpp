@@ -1,4 +1,5 @@
 #include "tests/untangle/explore/subdivision.h"
+#include "tests/core/mesh/edges.h"
 
 #include <CGAL/Arr_consolidated_curve_data_traits_2.h>
 #include <CGAL/Arr_segment_traits_2.h>
@@ -22,8 +23,8 @@ Kernel::Point_2 exact(const Point& p) {
 
 Arrangement arrange(const Mesh& mesh) {
   std::vector<Traits::Curve_2> curves;
-  for (int edge = 0; edge < mesh.n_edges(); ++edge) {
-    const auto a = exact(mesh.position(mesh.from(2 * edge))), b = exact(mesh.position(mesh.to(2 * edge)));
+  for (const int edge : all_edges(mesh)) {
+    const auto a = exact(mesh.position(mesh.from(edge))), b = exact(mesh.position(mesh.to(edge)));
     if (a != b) curves.emplace_back(SegmentTraits::Curve_2(a, b), edge);
   }
   Arrangement arrangement;

@@ -118,8 +118,8 @@ TEST(JointStar, GetsPastWhereSingleVerticesAreStuck) {
       moved = 0;
       for (const auto& [v, along] : free) {
         std::vector<LinkEdge> link;
-        for_each_outgoing(mesh, v, [&](int h) {
-          link.push_back({mesh.position(mesh.to(h)), mesh.position(mesh.apex(h))});
+        for_each_side_from(mesh, v, [&](int side) {
+          link.push_back({mesh.position(mesh.to(side)), mesh.position(mesh.apex(side))});
         });
         const Point best = optimal_point(link, mesh.position(v));
         if (smallest_angle(link, best) <= 1.0001 * smallest_angle(link, mesh.position(v))) continue;

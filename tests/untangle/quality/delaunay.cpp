@@ -1,4 +1,5 @@
 #include "tests/untangle/quality/delaunay.h"
+#include "tests/core/mesh/edges.h"
 
 #include <algorithm>
 #include <set>
@@ -38,12 +39,12 @@ EdgeSet triangulated_edges(const Mesh& mesh) {
 }
 
 Edge ends(const Mesh& mesh, int edge) {
-  return sorted(mesh.from(2 * edge), mesh.to(2 * edge));
+  return sorted(mesh.from(edge), mesh.to(edge));
 }
 
 Side opposite_vertex(const Mesh& mesh, int edge) {
-  const auto [a, b, c] = mesh.corners(mesh.face_of(2 * edge));
-  return in_circle(a, b, c, mesh.position(mesh.to(mesh.next(2 * edge + 1))));
+  const auto [a, b, c] = mesh.corners(Mesh::face_of(edge));
+  return in_circle(a, b, c, mesh.position(mesh.apex(mesh.opposite(edge))));
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ Side opposite_vertex(const Mesh& mesh, int edge) {
 std::string not_delaunay(const Mesh& mesh) {
   const auto expected = triangulated_edges(mesh);
   if (static_cast<int>(expected.size()) != mesh.n_edges()) return "another number of edges";
-  for (int edge = 0; edge < mesh.n_edges(); ++edge) {
+  for (const int edge : all_edges(mesh)) {
     if (expected.contains(ends(mesh, edge))) continue;
     if (mesh.constraint_of(edge) != none) return "a constrained edge is missing";
     if (mesh.is_flippable(edge) && opposite_vertex(mesh, edge) == Side::On) continue;
@@ -64,13 +65,13 @@ std::string not_delaunay(const Mesh& mesh) {
 int n_foreign_edges(const Mesh& mesh) {
   const auto expected = triangulated_edges(mesh);
   int foreign = 0;
-  for (int edge = 0; edge < mesh.n_edges(); ++edge) foreign += !expected.contains(ends(mesh, edge));
+  for (const int edge : all_edges(mesh)) foreign += !expected.contains(ends(mesh, edge));
   return foreign;
 }
 
 int n_not_locally_delaunay(const Mesh& mesh) {
   int count = 0;
-  for (int edge = 0; edge < mesh.n_edges(); ++edge)
+  for (const int edge : all_edges(mesh))
     count += mesh.is_flippable(edge) && opposite_vertex(mesh, edge) == Side::Inside;
   return count;
 }

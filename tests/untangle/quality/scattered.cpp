@@ -140,7 +140,7 @@ std::string moved_what_stays(const Mesh& before, const Mesh& after) {
 
 bool same_connectivity(const Mesh& a, const Mesh& b) {
   const auto first = snapshot_of(a), second = snapshot_of(b);
-  return first.faces == second.faces && first.halfedges == second.halfedges;
+  return first.faces == second.faces && first.fans == second.fans;
 }
 
 }  // namespace kinemesh::test

@@ -6,6 +6,7 @@
 #include "core/mesh/around.h"
 #include "kinemesh/error.h"
 #include "kinemesh/shapes.h"
+#include "tests/core/mesh/edges.h"
 #include "tests/core/mesh/snapshot.h"
 #include "tests/untangle/quality/delaunay.h"
 #include "tests/untangle/quality/scattered.h"
@@ -29,7 +30,7 @@ int flip_at_random(Mesh& mesh, int attempts, std::uint64_t seed) {
   Random random(seed);
   int flips = 0;
   for (int i = 0; i < attempts; ++i) {
-    const int edge = random.below(mesh.n_edges());
+    const int edge = random_edge(mesh, random);
     if (!can_flip_in_place(mesh, edge)) continue;
     mesh.flip(edge);
     ++flips;
@@ -158,13 +159,13 @@ TEST(DelaunayFlipping, FindsFromChangedFacesWhatItFindsFromAll) {
       const Mesh before = mesh;
       mesh.positions()[v] = scattered(mesh, 1.0, seed).position(v);
       if (n_tangled(mesh) > 0) mesh = before;
-      for_each_outgoing(mesh, v, [&](int h) { faces.push_back(mesh.face_of(h)); });
+      for_each_side_from(mesh, v, [&](int side) { faces.push_back(Mesh::face_of(side)); });
     }
-    const auto edges = edges_of(mesh, faces);
-    const auto outcome = flipping.run(mesh, edges);
+    const auto sides = sides_of(mesh, faces);
+    const auto outcome = flipping.run(mesh, sides);
     ASSERT_TRUE(outcome);
     flips += outcome.flips;
-    EXPECT_LE(outcome.visits, static_cast<int>(edges.size()) + 4 * outcome.flips);
+    EXPECT_LE(outcome.visits, static_cast<int>(sides.size()) + 4 * outcome.flips);
     expect_delaunay(mesh, about);
     EXPECT_EQ(flipping.run(mesh).flips, 0) << about;
   }
@@ -179,8 +180,9 @@ TEST(DelaunayFlipping, LeavesTanglesAloneThatItDoesNotMeet) {
   place(mesh, at(16, 16), {0.87, 0.81});
   const Mesh before = mesh;
   std::vector<int> faces;
-  for_each_outgoing(mesh, mesh.vertex_of_user(at(4, 4)), [&](int h) { faces.push_back(mesh.face_of(h)); });
-  const auto outcome = DelaunayFlipping().run(mesh, edges_of(mesh, faces));
+  for_each_side_from(mesh, mesh.vertex_of_user(at(4, 4)),
+                     [&](int side) { faces.push_back(Mesh::face_of(side)); });
+  const auto outcome = DelaunayFlipping().run(mesh, sides_of(mesh, faces));
   ASSERT_TRUE(outcome);
   EXPECT_EQ(outcome.untangled, 1);
   EXPECT_GT(outcome.flips, 0);
@@ -228,10 +230,10 @@ TEST(DelaunayFlipping, ForgetsWhatAFailureHasLeft) {
   expect_delaunay(whole, "after a failure");
 }
 
-TEST(DelaunayFlipping, RefusesEdgesThatDoNotExist) {
+TEST(DelaunayFlipping, RefusesSidesThatDoNotExist) {
   Mesh mesh = build_mesh(four_triangles());
-  for (const int edge : {-1, mesh.n_edges()})
-    EXPECT_THROW((void)DelaunayFlipping().run(mesh, std::vector{edge}), InputError);
+  for (const int side : {-1, Mesh::side(1, 3), Mesh::side(mesh.n_faces(), 0)})
+    EXPECT_THROW((void)DelaunayFlipping().run(mesh, std::vector{side}), InputError);
 }
 
 }  // namespace

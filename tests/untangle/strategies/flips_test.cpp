@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/around.h"
+#include "tests/core/mesh/edges.h"
 #include "tests/core/mesh/snapshot.h"
 #include "tests/untangle/oracle.h"
 #include "tests/untangle/properties.h"
@@ -35,19 +36,19 @@ std::pair<Wide, int> disorder(const Mesh& mesh) {
 }
 
 bool opposite_vertices_differ(const Mesh& mesh, int edge) {
-  return mesh.to(mesh.next(2 * edge)) != mesh.to(mesh.next(2 * edge + 1));
+  return mesh.apex(edge) != mesh.apex(mesh.opposite(edge));
 }
 
 // Compares the test with what the flip does, for each edge, and leaves the mesh with some of them flipped.
 void expect_flips_judged_right(Mesh& mesh, Random& random, int& allowed) {
-  for (int edge = 0; edge < mesh.n_edges(); ++edge) {
+  for (int edge : all_edges(mesh)) {
     if (!mesh.is_flippable(edge) || !opposite_vertices_differ(mesh, edge)) continue;
     const auto before = disorder(mesh);
     const bool untangles = flip_untangles(mesh, edge);
-    mesh.flip(edge);
+    edge = mesh.flip(edge);
     ASSERT_EQ(untangles, disorder(mesh) < before) << edge;
     allowed += untangles;
-    for (int back = untangles || random.one_in(8) ? 0 : 3; back > 0; --back) mesh.flip(edge);
+    for (int back = untangles || random.one_in(8) ? 0 : 3; back > 0; --back) edge = mesh.flip(edge);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/sweep/face_sweep.h"
 #include "kinemesh/predicates.h"
+#include "tests/core/mesh/edges.h"
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/untangle/oracle.h"
 #include "tests/untangle/repairs.h"
@@ -133,12 +134,12 @@ bool is_upright(const Mesh& mesh, int a, int b, int c) {
 // Edges whose flip leaves upright faces.
 void flip_some(Mesh& mesh, Random& random, FaceMinima& minima) {
   for (int i = 0; i < 300; ++i) {
-    const int edge = random.below(mesh.n_edges()), h = 2 * edge;
+    const int edge = random_edge(mesh, random);
     if (!mesh.is_flippable(edge)) continue;
-    const int a = mesh.from(h), b = mesh.to(h), c = mesh.apex(h), d = mesh.to(mesh.next(h + 1));
+    const int a = mesh.from(edge), b = mesh.to(edge), c = mesh.apex(edge), d = mesh.apex(mesh.opposite(edge));
     if (!is_upright(mesh, d, b, c) || !is_upright(mesh, c, a, d)) continue;
+    minima.outdate(std::array{Mesh::face_of(edge), mesh.face_across(edge)});
     mesh.flip(edge);
-    minima.outdate(std::array{mesh.face_of(h), mesh.face_of(h + 1)});
   }
 }
 
