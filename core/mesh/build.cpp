@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -11,6 +12,7 @@
 #include "core/mesh/around.h"
 #include "core/mesh/curve.h"
 #include "core/mesh/frame.h"
+#include "core/mesh/ordered_build.h"
 #include "core/mesh/padding.h"
 #include "core/mesh/sides.h"
 #include "kinemesh/orient.h"
@@ -20,7 +22,9 @@ namespace kinemesh {
 
 class MeshBuilder {
  public:
-  MeshBuilder(const MeshData& data, const BuildOptions& options) : data_(data), options_(options) {}
+  // order: of the vertices, or nothing for that along the curve.
+  MeshBuilder(const MeshData& data, const BuildOptions& options, std::optional<std::span<const int>> order)
+      : data_(data), options_(options), order_(order) {}
 
   Mesh build() {
     check_input();
@@ -38,6 +42,7 @@ class MeshBuilder {
   bool is_proper(int face) const;
   [[noreturn]] void refuse_face(int face) const;
   std::vector<int> order_on_curve(std::span<const Point> points) const;
+  void check_order(const std::vector<int>& order, std::size_t n) const;
   std::array<Point, 4> frame_corners() const;
   void place_vertices();
   void place_faces();
@@ -56,6 +61,7 @@ class MeshBuilder {
 
   const MeshData& data_;
   const BuildOptions& options_;
+  std::optional<std::span<const int>> order_;
   Mesh mesh_;
   std::vector<int> opposite_;                // per side 3 f + k, padding included; until all is connected
   std::unordered_map<int, int> constraint_;  // by lower side
@@ -146,7 +152,16 @@ std::vector<int> MeshBuilder::order_on_curve(std::span<const Point> points) cons
                                                    [](const Box& a, const Box& b) { return hull_of(a, b); }));
 }
 
-// The user's vertices and the corners of the frame, along the curve.
+void MeshBuilder::check_order(const std::vector<int>& order, std::size_t n) const {
+  std::vector<char> is_there(n, false);
+  for (const int i : order) {
+    if (i < 0 || i >= static_cast<int>(n) || is_there[i]) throw InputError("the order of the vertices is none");
+    is_there[i] = true;
+  }
+  if (order.size() != n) throw InputError("the order of the vertices leaves some out");
+}
+
+// The user's vertices and the corners of the frame, in their order.
 void MeshBuilder::place_vertices() {
   std::vector<Point> framed;
   if (options_.frame > 0.0) {
@@ -155,7 +170,9 @@ void MeshBuilder::place_vertices() {
     framed.insert(framed.end(), corners.begin(), corners.end());
   }
   const std::span<const Point> points = framed.empty() ? data_.points : framed;
-  const auto order = order_on_curve(points);
+  const std::vector<int> order =
+      order_ ? std::vector(order_->begin(), order_->end()) : order_on_curve(points);
+  if (order_) check_order(order, points.size());
   const int n = static_cast<int>(points.size());
   mesh_.n_user_vertices_ = data_.n_vertices();
   mesh_.frame_margin_ = options_.frame;
@@ -374,7 +391,11 @@ bool MeshBuilder::is_in_domain(int side) const {
 }
 
 Mesh build_mesh(const MeshData& data, const BuildOptions& options) {
-  return MeshBuilder(data, options).build();
+  return MeshBuilder(data, options, std::nullopt).build();
+}
+
+Mesh build_mesh(const MeshData& data, const BuildOptions& options, std::span<const int> order) {
+  return MeshBuilder(data, options, order).build();
 }
 
 }  // namespace kinemesh

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "kinemesh/shapes.h"
+#include "tests/core/mesh/disordered.h"
 #include "tests/motion/grid.h"
 
 namespace kinemesh {
@@ -113,10 +114,8 @@ TEST(Freedom, SlidesAlongABentBorder) {
 
 TEST(Freedom, CurvedLinesDoNotDependOnHowTheMeshIsStored) {
   const MeshData ring = make_annulus(300);
-  MeshData more = ring;
-  for (int i = 0; i < 40; ++i) more.points.push_back({0.9, 0.8 + 0.001 * i});
   const Mesh mesh = build_mesh(ring, {.frame = 0.1, .fixed = {}}),
-             other = build_mesh(more, {.frame = 0.7, .fixed = {}});
+             other = test::disordered(ring, {.frame = 0.7, .fixed = {}}, 1);
   ASSERT_NE(mesh.user_vertex(50), other.user_vertex(50));
   const Freedom freedom(mesh, {Slide, {}}), same(other, {Slide, {}});
   ASSERT_EQ(freedom.lines().size(), 2u);

@@ -355,7 +355,7 @@ class Reports(unittest.TestCase):
     @unittest.skipUnless(CHROMIUM and shutil.which("npm"), "chromium, node and npm are not all here")
     def test_the_page_in_a_browser(self):
         MODULES.mkdir(parents=True, exist_ok=True)
-        here = ROOT / "tests/report"
+        here = ROOT / "tests/sim/report"
         for name in ("package.json", "package-lock.json", "browser_test.mjs"):
             shutil.copy(here / name, MODULES)
         shutil.copytree(here / "reference", MODULES / "reference", dirs_exist_ok=True)

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 const std::string scenario_text =
     "[mesh]\nshape = 'square'\nvertices = 150\n"
     "[[motion]]\nfield = 'rotor'\ncenter = [0.5, 0.5]\nradius = 0.33\nrate = 6\n"
-    "[[motion]]\nfield = 'jitter'\namplitude = 0.3\n"
+    "[[motion]]\nfield = 'jitter'\namplitude = 0.25\n"
     "[time]\ndt = 0.05\nsteps = 12\n"
     "[output]\nevery = 5\ncheckpoint = 3\npatches = true\n";
 

@@ -11,6 +11,7 @@
 #include "core/mesh/around.h"
 #include "kinemesh/build.h"
 #include "kinemesh/measure.h"
+#include "tests/core/mesh/disordered.h"
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/untangle/quality/scattered.h"
 #include "tests/untangle/random_tangles.h"
@@ -159,7 +160,7 @@ TEST(JointStar, DoesNotDependOnHowTheMeshIsStored) {
       Mesh mesh = scattered(domain_number(static_cast<int>(seed) % n_domains, seed).mesh, 1.0, seed);
       EXPECT_TRUE(repair(mesh));
       const MeshData data = mesh.domain();
-      mesh = build_mesh(is_turned ? shuffled(data, seed) : data, {.frame = is_turned ? 0.6 : 0.25});
+      mesh = is_turned ? disordered(shuffled(data, seed), {.frame = 0.6}, seed) : build_mesh(data, {.frame = 0.25});
       const auto free = free_vertices(mesh);
       const std::vector<Point> best = JointStar(mesh, free).best_places();
       std::vector<std::pair<int, Point>> places;
