@@ -19,7 +19,7 @@ install(DIRECTORY include/ TYPE INCLUDE)
 install(DIRECTORY ${KINEMESH_FOLDERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kinemesh/internal
   FILES_MATCHING PATTERN "*.h"
   PATTERN "cli" EXCLUDE PATTERN "report" EXCLUDE PATTERN "draw" EXCLUDE
-  REGEX "/(cgal_triangulation|surface)\\.h$" EXCLUDE)
+  REGEX "/(cgal_triangulation|outline_mesher|shadow_border|surface)\\.h$" EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md TYPE DOC)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/kinemesh-config.cmake.in

@@ -8,7 +8,7 @@
 
 namespace kinemesh::io {
 
-// Vertices, faces and half-edges (six for each face) can then all be numbered by an int.
+// Vertices, faces and sides (six for each face) can then all be numbered by an int.
 inline constexpr int max_count = 357'913'941;
 
 class Scanner {

@@ -6,7 +6,7 @@
 #include "kinemesh/mesh.h"
 #include "untangle/explore/convex_pieces.h"
 #include "untangle/explore/sheets.h"
-#include "untangle/fill/overlapping_mesher.h"
+#include "untangle/fill/remeshable_set.h"
 
 namespace kinemesh {
 

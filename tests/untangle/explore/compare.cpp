@@ -9,6 +9,7 @@
 #include "kinemesh/mesh_io.h"
 #include "kinemesh/validate.h"
 #include "tests/untangle/explore/local_oracle.h"
+#include "untangle/explore/local_exploration.h"
 
 namespace kinemesh::test {
 namespace {
