@@ -22,7 +22,7 @@ enum class DefectKind {
   Escaped,             // vertices: one on the wrong side of its border or interface
   HullMoved,           // vertices: one of the convex hull of a mesh without a frame
   NotPlanar,           // the faces do not form a part of the plane: a handle, a twist, no border
-  Connectivity,        // faces or vertices: where half-edges, mirror and numbering disagree
+  Connectivity,        // faces or vertices: where sides and numbering disagree
   MissingEdge,         // edges: a constrained edge that is not in the mesh
   Coverage,            // the areas do not add up to the area inside the border
 };

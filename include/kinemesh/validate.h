@@ -8,7 +8,7 @@
 
 namespace kinemesh {
 
-// The first defect in a fixed order: connectivity and mirror, numbering, constrained edges with their labels,
+// The first defect in a fixed order: connectivity, numbering, constrained edges with their labels,
 // finite positions, faces upright, convex border of the padding, coverage. Nothing: the padded mesh is an
 // embedded triangulation of its convex hull, and so is the domain of its part. O(n); exact but for the
 // coverage sum.

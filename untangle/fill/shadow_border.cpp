@@ -69,7 +69,7 @@ std::optional<Interval> part_inside(const Mesh& mesh, const Crease& crease, int 
   };
   Interval interval{.face = face};
   const auto sides = mesh.sides(face);
-  for (int k = 0; k < 3; ++k) clip(interval, depth(k, crease.a), depth(k, crease.b), mesh_.lower(sides[k]));
+  for (int k = 0; k < 3; ++k) clip(interval, depth(k, crease.a), depth(k, crease.b), mesh.lower(sides[k]));
   return is_before(interval.low, interval.high) ? std::optional(std::move(interval)) : std::nullopt;
 }
 

@@ -15,7 +15,7 @@ struct Tangles {
   bool empty() const { return inverted.empty() && flat.empty(); }
 };
 
-// Exact. Padding included. One sweep over the flat mirror in all threads; the result does not depend on their
+// Exact. Padding included. One sweep over all corners in all threads; the result does not depend on their
 // number. Minima, where they are wanted, are measured on the way; what they know already is not looked at again
 // unless it has moved since, which anything may have if `moved` is null.
 Tangles detect(const Mesh& mesh, FaceMinima* minima = nullptr, const MovedBlocks* moved = nullptr);
