@@ -72,15 +72,14 @@ class Overlay {
     return 1 + depth_at((a + b + c) / 3.0, {face, none, none, none});
   }
 
-  std::array<int, 2> beside(int edge) const { return {mesh_.face_of(2 * edge), mesh_.face_of(2 * edge + 1)}; }
+  std::array<int, 2> beside(int edge) const { return {Mesh::face_of(edge), mesh_.face_across(edge)}; }
 
   // The more of the region's faces that lie on one side of the edge's image.
   int depth_beside(int edge) const {
     int left = 0, right = 0;
-    for (const int side : {2 * edge, 2 * edge + 1}) {
-      const int face = mesh_.face_of(side);
+    for (const int face : beside(edge)) {
       if (face == none || !holds(face)) continue;
-      const bool is_left = (turn(face) == Orientation::CounterClockwise) == (side == 2 * edge);
+      const bool is_left = (turn(face) == Orientation::CounterClockwise) == (face == Mesh::face_of(edge));
       ++(is_left ? left : right);
     }
     return std::max(left, right);

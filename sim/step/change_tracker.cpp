@@ -90,7 +90,11 @@ void ChangeTracker::forget() noexcept {
 }
 
 void ChangeTracker::accept(const Mesh& mesh) noexcept {
-  for (const int face : changed_) copy_face(mesh, face);
+  for (const int face : changed_) {
+    copy_face(mesh, face);
+    for (const int side : Mesh::sides(face))  // what lies across from a neighbour has changed, too
+      if (const int across = mesh.face_across(side); across != none) copy_face(mesh, across);
+  }
   forget();
 }
 
