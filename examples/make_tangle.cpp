@@ -12,6 +12,7 @@
 #include "kinemesh/local.h"
 #include "kinemesh/mesh_io.h"
 #include "kinemesh/shapes.h"
+#include "untangle/explore/local_exploration.h"
 #include "untangle/walk/detect.h"
 
 namespace {

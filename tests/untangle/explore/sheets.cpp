@@ -122,7 +122,7 @@ Sheets::Step Sheets::step(const Lift& from, int s) const {
   const int edge = segment.edges.front();
   const int across = segment.left == from.cell ? segment.right : segment.left;
   if (!is_side(mesh_, from.face, edge)) return {lift_at(from.face, across), s, none};
-  const int f = mesh_.face_of(2 * edge), g = mesh_.face_of(2 * edge + 1);
+  const int f = Mesh::face_of(edge), g = mesh_.face_across(edge);
   const int beyond = f == from.face ? g : f;
   if (beyond == none) return {none, s, edge};
   return {lift_at(beyond, is_crease(edge) ? from.cell : across), s, edge};

@@ -21,9 +21,8 @@ constexpr RepairOptions allowing{.allow_escaped = true};
 // Both faces upright afterwards.
 bool can_flip_in_place(const Mesh& mesh, int edge) {
   if (!mesh.is_flippable(edge)) return false;
-  const int h = 2 * edge, o = h + 1;
-  return segments_cross(mesh.position(mesh.from(h)), mesh.position(mesh.to(h)), mesh.position(mesh.apex(h)),
-                        mesh.position(mesh.apex(o)));
+  return segments_cross(mesh.position(mesh.from(edge)), mesh.position(mesh.to(edge)),
+                        mesh.position(mesh.apex(edge)), mesh.position(mesh.apex(mesh.opposite(edge))));
 }
 
 int flip_at_random(Mesh& mesh, int attempts, std::uint64_t seed) {
