@@ -92,8 +92,8 @@ Number twice_area(const Region& region, const ShadowBorder& border) {
 
 Number twice_area_within(const ShadowBorder& border) {
   Number sum = 0;
-  for (const auto& [from, to, face] : border.subs)
-    sum += CGAL::determinant(border.points[from] - CGAL::ORIGIN, border.points[to] - CGAL::ORIGIN);
+  for (const SubSegment& sub : border.subs)
+    sum += CGAL::determinant(border.points[sub.from] - CGAL::ORIGIN, border.points[sub.to] - CGAL::ORIGIN);
   return sum;
 }
 
