@@ -29,13 +29,6 @@ constexpr double viscosity = 1e-3, circulation = 1.0;
 constexpr double core_radius = 0.2;  // of the vorticity, a Gaussian
 constexpr double blur = 0.03;        // of a single vortex; about the distance between two
 
-double cross(const Point& a, const Point& b) {
-  return a.x * b.y - a.y * b.x;
-}
-double dot(const Point& a, const Point& b) {
-  return a.x * b.x + a.y * b.y;
-}
-
 // Of neighbours in one of the two triangles they share.
 struct Pair {
   int i, j;

@@ -135,7 +135,6 @@ void Body::move(std::span<const Point> initial, std::span<const Point> x0, doubl
 
 std::string Body::culprit(const Point& initial, const Point& x0, double t0, double t1, double dt,
                           Integrator integrator) const {
-  const auto is_finite = [](const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); };
   for (const auto& field : displacements_)
     if (!is_finite(field->displacement(initial, t1))) return std::string(field->name());
   for (const auto& field : velocities_) {

@@ -8,8 +8,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 8192;  // vertices that are worth a task
-
 // Vertices of a line from one that is held to the next, both included; positions in line.vertices(). Over the end of
 // a closed line it goes on with the first ones.
 struct Stretch {
@@ -100,7 +98,7 @@ InteriorSolution Following::solve(const Mesh& mesh, std::span<const Role> roles,
   next_.increments.resize(x0.size());
   const bool has_start = !state_.increments.empty() && state_.dt > 0.0;
   const double scale = has_start ? dt / state_.dt : 0.0;
-  parallel_parts(static_cast<int>(x0.size()), grain, [&](int, int begin, int end) {
+  parallel_parts(static_cast<int>(x0.size()), grain::moves, [&](int, int begin, int end) {
     for (int v = begin; v < end; ++v) {
       Point& u = next_.increments[v];
       if (roles[v] == Role::Known)

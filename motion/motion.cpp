@@ -14,12 +14,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 4096;  // vertices that are worth a task
-
-bool is_finite(const Point& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y);
-}
-
 // Adding 0 would turn -0 into +0.
 double moved(double x, double way) {
   return way == 0.0 ? x : x + way;
@@ -249,12 +243,12 @@ void Motion::add_terms(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
 void Motion::advance(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const {
   const int n = static_cast<int>(x0.size());
   if (noises_.empty()) {
-    parallel_parts(n, grain, [&](int, int begin, int end) {
+    parallel_parts(n, grain::moves, [&](int, int begin, int end) {
       for (int v = begin; v < end; ++v) x1[v] = moved(x0[v], smooth_way(v, x0[v], step.t0, step.dt));
     });
   } else {
     const NoiseCut cut(x0, constrained_, fill_noise(step.dt, step.number, x1), 1e-3 * spacing_);
-    parallel_parts(n, grain, [&](int, int begin, int end) {
+    parallel_parts(n, grain::moves, [&](int, int begin, int end) {
       for (int v = begin; v < end; ++v)
         x1[v] = moved(x0[v], smooth_way(v, x0[v], step.t0, step.dt) + cut(x0[v], x1[v]));
     });
@@ -299,7 +293,7 @@ bool Motion::ways_inside(std::span<const Point> x0, const TimeStep& step, std::s
   const auto is_inside = [](const auto& term) { return term.is_inside; };
   if (std::ranges::none_of(velocities_, is_inside) && std::ranges::none_of(displacements_, is_inside))
     return false;
-  parallel_parts(static_cast<int>(x0.size()), grain, [&](int, int begin, int end) {
+  parallel_parts(static_cast<int>(x0.size()), grain::moves, [&](int, int begin, int end) {
     for (int v = begin; v < end; ++v) ways[v] = way_inside(v, x0[v], step.t0, step.dt);
   });
   return true;
@@ -358,7 +352,7 @@ Point Motion::noise(int vertex, std::uint64_t step, double dt) const {
 
 double Motion::fill_noise(double dt, std::uint64_t step, std::span<Point> noises) const {
   std::array<double, most_parts> longest{};
-  parallel_parts(static_cast<int>(noises.size()), grain, [&](int part, int begin, int end) {
+  parallel_parts(static_cast<int>(noises.size()), grain::moves, [&](int part, int begin, int end) {
     for (int v = begin; v < end; ++v) {
       noises[v] = noise(v, step, dt);
       longest[part] = std::max(longest[part], glm::length(noises[v]));

@@ -17,10 +17,6 @@ constexpr double straight_within = 1e-9;
 
 constexpr double corner_cosine = 0.8660254037844387;  // of 30 degrees
 
-double cross(const Point& a, const Point& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
 // Neighbours along the edges, of each vertex; in the order of vertices, so that lines do not depend on that of edges.
 using Neighbours = std::map<int, std::set<int>>;
 

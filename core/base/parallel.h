@@ -11,6 +11,15 @@ namespace kinemesh {
 
 inline constexpr int most_parts = 64;
 
+// How many of them are worth a task.
+namespace grain {
+inline constexpr int items = 1 << 14;  // vertices, faces or sides of which a few numbers are read
+inline constexpr int moves = 1 << 12;  // of a vertex, by fields or by equations
+inline constexpr int stretches = 256;  // or blocks: some 64 items each
+inline constexpr int places = 32;      // the best ones of a vertex
+inline constexpr int regions = 16;
+}  // namespace grain
+
 // Into so many parts parallel_parts cuts n things: of `grain` or more, up to most_parts.
 inline int n_parts(int n, int grain) {
   return std::clamp(n / grain, 1, most_parts);

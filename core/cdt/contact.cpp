@@ -12,9 +12,9 @@ namespace {
 // Where two segments that touch do so; rounded.
 Point meeting_point(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Point u = b - a, v = d - c, w = c - a;
-  const double area = u.x * v.y - u.y * v.x;
+  const double area = cross(u, v);
   if (area == 0.0) return on_segment(a, c, d) ? a : on_segment(b, c, d) ? b : c;
-  return a + u * ((w.x * v.y - w.y * v.x) / area);
+  return a + u * (cross(w, v) / area);
 }
 
 std::optional<Contact> coincident_points(std::span<const Point> points) {

@@ -75,8 +75,8 @@ ExactQuadratic exact_quadratic(const std::array<MovingPoint, 3>& p, bool is_dot)
     v0 = turned(v0);
     v1 = turned(v1);
   }
-  const Integer start = cross(u0, v0), mixed = cross(u0, v1) + cross(u1, v0), end = cross(u1, v1);
-  return {start, mixed - 2 * start, start - mixed + end};
+  const auto area = moving_area(u0, u1, v0, v1);
+  return {area.constant(), area.linear(), area.square()};
 }
 
 int sign(const Integer& value) {
@@ -182,8 +182,7 @@ int KineticQuadratic::sign_after(const CollapseTime& t) const {
 
 // Only a guess: where the rounded quadratic goes from positive to negative, and how steeply.
 double KineticQuadratic::guess_collapse(double& slope) const {
-  const double a = rounded_.start, b = rounded_.mixed - 2.0 * rounded_.start,
-               c = rounded_.start - rounded_.mixed + rounded_.end;
+  const double a = rounded_.constant(), b = rounded_.linear(), c = rounded_.square();
   slope = std::sqrt(std::max(0.0, b * b - 4.0 * a * c));
   return b <= 0.0 ? 2.0 * a / (slope - b) : (-b - slope) / (2.0 * c);  // without cancellation
 }

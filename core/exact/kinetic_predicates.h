@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/exact/moving_area.h"
 #include "kinemesh/predicates.h"
 #include "kinemesh/types.h"
 
@@ -18,9 +19,9 @@ struct MovingPoint {
   Point x0, x1;
 };
 
-// (1 - t)^2 start + t (1 - t) mixed + t^2 end, each right within `error`, and so is its value in [0, 1].
-struct RoundedQuadratic {
-  double start, mixed, end, error;
+// Each coefficient is right within `error`, and so is its value in [0, 1].
+struct RoundedQuadratic : MovingArea<double> {
+  double error;
 };
 
 // Of u x v, where u and v go from u0, v0 to u1, v1, themselves differences of exact points. A difference is
@@ -29,11 +30,9 @@ struct RoundedQuadratic {
 // bound. What underflows is off by 2^-1074. Overflow makes bound or value infinite or NaN, so that comparisons
 // fail.
 inline RoundedQuadratic rounded_product(const Point& u0, const Point& u1, const Point& v0, const Point& v1) {
-  const double s0 = u0.x * v0.y, s1 = u0.y * v0.x, e0 = u1.x * v1.y, e1 = u1.y * v1.x;
-  const double m0 = u0.x * v1.y, m1 = u0.y * v1.x, m2 = u1.x * v0.y, m3 = u1.y * v0.x;
-  const double sum = std::abs(s0) + std::abs(s1) + std::abs(e0) + std::abs(e1) + std::abs(m0) + std::abs(m1) +
-                     std::abs(m2) + std::abs(m3);
-  return {s0 - s1, (m0 - m1) + (m2 - m3), e0 - e1, 16.0 * 0x1p-53 * sum + underflow_error};
+  const auto size = [](const Point& u, const Point& v) { return std::abs(u.x * v.y) + std::abs(u.y * v.x); };
+  const double sum = size(u0, v0) + size(u1, v1) + size(u0, v1) + size(u1, v0);
+  return {moving_area(u0, u1, v0, v1), 16.0 * 0x1p-53 * sum + underflow_error};
 }
 
 // Throughout [0, 1], if its Bernstein coefficients are.

@@ -12,4 +12,10 @@ namespace kinemesh {
 inline constexpr double orientation_error = 4.0 * 0x1p-53;
 inline constexpr double underflow_error = 0x1p-1022;
 
+// What |l - r| has to exceed, of the magnitudes of l and r; also of several at once.
+template <class Number>
+constexpr Number orientation_bound(const Number& l, const Number& r) {
+  return orientation_error * (l + r) + underflow_error;
+}
+
 }  // namespace kinemesh

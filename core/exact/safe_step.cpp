@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/exact/moving_area.h"
 #include "kinemesh/error.h"
 
 namespace kinemesh {
@@ -26,33 +27,29 @@ struct MovingFace {
   std::array<Point, 3> x0, x1;
 };
 
-// Twice the signed area as a quadratic a + b s + c s^2 of the share s of the step.
 template <class Number>
-struct Quadratic {
-  Number a, b, c;
+struct Vector {
+  Number x, y;
 };
 
 template <class Number>
-Number cross(const Number& ux, const Number& uy, const Number& vx, const Number& vy) {
-  return ux * vy - uy * vx;
+Number cross(const Vector<Number>& u, const Vector<Number>& v) {
+  return Number(u.x * v.y) - Number(u.y * v.x);
 }
 
-// With u, v two sides and du, dv their changes: u x v + (u x dv + du x v) s + du x dv s^2.
+// Twice, as a function of the share of the step.
 template <class Number>
-Quadratic<Number> area_of(const MovingFace& f) {
-  const auto side = [](const std::array<Point, 3>& x, int corner, int axis) {
-    return Number(Number(x[corner][axis]) - Number(x[0][axis]));
+MovingArea<Number> area_of(const MovingFace& f) {
+  const auto side = [](const std::array<Point, 3>& x, int corner) {
+    return Vector<Number>{Number(x[corner].x) - Number(x[0].x), Number(x[corner].y) - Number(x[0].y)};
   };
-  const Number ux = side(f.x0, 1, 0), uy = side(f.x0, 1, 1), vx = side(f.x0, 2, 0), vy = side(f.x0, 2, 1);
-  const Number dux = side(f.x1, 1, 0) - ux, duy = side(f.x1, 1, 1) - uy;
-  const Number dvx = side(f.x1, 2, 0) - vx, dvy = side(f.x1, 2, 1) - vy;
-  return {cross(ux, uy, vx, vy), Number(cross(ux, uy, dvx, dvy) + cross(dux, duy, vx, vy)),
-          cross(dux, duy, dvx, dvy)};
+  return moving_area(side(f.x0, 1), side(f.x1, 1), side(f.x0, 2), side(f.x1, 2));
 }
 
 // Where the rounded quadratic vanishes first in (0, 1], or infinity: only a guess.
 double guess(const MovingFace& f) {
-  const auto [a, b, c] = area_of<double>(f);
+  const auto area = area_of<double>(f);
+  const double a = area.constant(), b = area.linear(), c = area.square();
   const double discriminant = b * b - 4.0 * a * c;
   if (!(discriminant >= 0.0)) return infinity;
   const double q = -b + std::copysign(std::sqrt(discriminant), -b);
@@ -98,13 +95,14 @@ bool is_surely_upright(const MovingFace& f, double until) {
 
 // Whether the quadratic is positive on all of [0, s), or of [0, s].
 enum class End { Open, Closed };
-bool is_upright(const Quadratic<Rational>& q, double s, End end) {
+bool is_upright(const MovingArea<Rational>& area, double s, End end) {
   if (end == End::Open && s == 0.0) return true;
-  if (q.a <= 0) return false;
-  const Rational t(s), value = q.a + t * (q.b + t * q.c);
+  const Rational a = area.constant(), b = area.linear(), c = area.square();
+  if (a <= 0) return false;
+  const Rational t(s), value = a + t * (b + t * c);
   if (end == End::Open ? value < 0 : value <= 0) return false;
-  const bool dips = q.c > 0 && q.b < 0 && -q.b < 2 * q.c * t;  // the least value lies inside (0, s)
-  return !dips || q.b * q.b < 4 * q.a * q.c;
+  const bool dips = c > 0 && b < 0 && -b < 2 * c * t;  // the least value lies inside (0, s)
+  return !dips || b * b < 4 * a * c;
 }
 
 // Non-negative doubles are ordered like their bits.
@@ -143,8 +141,6 @@ class Search {
   }
 
  private:
-  static constexpr int grain = 2048;  // faces that are worth a task
-
   MovingFace face(int f) const {
     const auto [i, j, k] = faces_[f];
     return {{x0_[i], x0_[j], x0_[k]}, {x1_[i], x1_[j], x1_[k]}};
@@ -154,7 +150,7 @@ class Search {
   double first_guess() const {
     std::array<double, most_parts> first;
     first.fill(1.0);
-    parallel_parts(n_faces(), grain, [&](int part, int begin, int end) {
+    parallel_parts(n_faces(), grain::moves, [&](int part, int begin, int end) {
       for (int f = begin; f < end; ++f) first[part] = std::min(first[part], guess(face(f)));
     });
     return *std::min_element(first.begin(), first.end());
@@ -163,7 +159,7 @@ class Search {
   // Faces that may be flat in [0, until], ascending.
   std::vector<int> doubtful(double until) const {
     std::vector<char> is_doubtful(faces_.size());
-    parallel_parts(n_faces(), grain, [&](int, int begin, int end) {
+    parallel_parts(n_faces(), grain::moves, [&](int, int begin, int end) {
       for (int f = begin; f < end; ++f) is_doubtful[f] = !is_surely_upright(face(f), until);
     });
     std::vector<int> found;
@@ -188,7 +184,7 @@ class Search {
 
 void require_finite(std::span<const Point> x, const char* when) {
   for (std::size_t v = 0; v < x.size(); ++v)
-    if (!std::isfinite(x[v].x) || !std::isfinite(x[v].y))
+    if (!is_finite(x[v]))
       throw InputError("vertex " + std::to_string(v) + " is not finite " + when + " the step");
 }
 

@@ -69,8 +69,6 @@ class MeshBuilder {
 
 namespace {
 
-constexpr int grain = 16384;  // vertices or faces that are worth a task
-
 // Counting sort of faces by their lowest vertices; stable.
 std::vector<int> order_by(std::span<const int> lowest, int n_vertices) {
   std::vector<int> start(n_vertices + 1, 0), order(lowest.size());
@@ -78,10 +76,6 @@ std::vector<int> order_by(std::span<const int> lowest, int n_vertices) {
   std::partial_sum(start.begin(), start.end(), start.begin());
   for (int f = 0; f < static_cast<int>(lowest.size()); ++f) order[start[lowest[f]]++] = f;
   return order;
-}
-
-bool is_finite(const Point& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
 std::uint64_t key_of(const Edge& edge) {
@@ -101,10 +95,10 @@ void MeshBuilder::check_input() const {
   if (!data_.labels.empty() && data_.labels.size() != data_.triangles.size()) {
     throw InputError("there must be one label per face, or none");
   }
-  const int strange_vertex = find_first(n, grain, [&](int v) { return !is_finite(data_.points[v]); });
+  const int strange_vertex = find_first(n, grain::items, [&](int v) { return !is_finite(data_.points[v]); });
   if (strange_vertex != none)
     throw InputError("vertex " + std::to_string(strange_vertex) + " has a position that is not finite");
-  const int wrong_face = find_first(data_.n_faces(), grain, [&](int f) { return !is_proper(f); });
+  const int wrong_face = find_first(data_.n_faces(), grain::items, [&](int f) { return !is_proper(f); });
   if (wrong_face != none) refuse_face(wrong_face);
   for (const int v : options_.fixed) {
     if (v < 0 || v >= n) throw InputError("fixed vertex " + std::to_string(v) + " does not exist");
@@ -144,7 +138,7 @@ std::array<Point, 4> MeshBuilder::frame_corners() const {
 std::vector<int> MeshBuilder::order_on_curve(std::span<const Point> points) const {
   std::array<Box, most_parts> boxes;
   boxes.fill(nowhere);
-  parallel_parts(data_.n_faces(), grain, [&](int part, int begin, int end) {
+  parallel_parts(data_.n_faces(), grain::items, [&](int part, int begin, int end) {
     for (int f = begin; f < end; ++f)
       for (const int v : data_.triangles[f]) boxes[part] = hull_of(boxes[part], data_.points[v]);
   });
@@ -155,7 +149,8 @@ std::vector<int> MeshBuilder::order_on_curve(std::span<const Point> points) cons
 void MeshBuilder::check_order(const std::vector<int>& order, std::size_t n) const {
   std::vector<char> is_there(n, false);
   for (const int i : order) {
-    if (i < 0 || i >= static_cast<int>(n) || is_there[i]) throw InputError("the order of the vertices is none");
+    if (i < 0 || i >= static_cast<int>(n) || is_there[i])
+      throw InputError("the order of the vertices is none");
     is_there[i] = true;
   }
   if (order.size() != n) throw InputError("the order of the vertices leaves some out");
@@ -179,7 +174,7 @@ void MeshBuilder::place_vertices() {
   mesh_.vertex_of_user_.resize(n);
   mesh_.positions_.resize(n);
   mesh_.user_vertex_.resize(n);
-  parallel_parts(n, grain, [&](int, int begin, int end) {
+  parallel_parts(n, grain::items, [&](int, int begin, int end) {
     for (int v = begin; v < end; ++v) {
       mesh_.positions_[v] = points[order[v]];
       mesh_.user_vertex_[v] = order[v] < data_.n_vertices() ? order[v] : none;
@@ -199,14 +194,14 @@ void MeshBuilder::place_faces() {
     return Triangle{mesh_.vertex_of_user_[a], mesh_.vertex_of_user_[b], mesh_.vertex_of_user_[c]};
   };
   std::vector<int> lowest(n);
-  parallel_parts(n, grain, [&](int, int begin, int end) {
+  parallel_parts(n, grain::items, [&](int, int begin, int end) {
     for (int f = begin; f < end; ++f) lowest[f] = std::ranges::min(renumbered(f));
   });
   mesh_.n_user_faces_ = n;
   mesh_.user_face_ = order_by(lowest, mesh_.n_vertices());
   mesh_.triangles_.resize(n);
   mesh_.labels_.resize(n);
-  parallel_parts(n, grain, [&](int, int begin, int end) {
+  parallel_parts(n, grain::items, [&](int, int begin, int end) {
     for (int f = begin; f < end; ++f) {
       mesh_.triangles_[f] = renumbered(mesh_.user_face_[f]);
       mesh_.labels_[f] = data_.label(mesh_.user_face_[f]);
@@ -314,7 +309,7 @@ int MeshBuilder::label_beside(int side) const {
 void MeshBuilder::constrain() {
   mesh_.on_constraint_.assign(mesh_.n_vertices(), false);
   std::array<std::vector<int>, most_parts> interfaces;
-  parallel_parts(mesh_.n_faces(), grain, [&](int part, int begin, int end) {
+  parallel_parts(mesh_.n_faces(), grain::items, [&](int part, int begin, int end) {
     for (int f = begin; f < end; ++f)
       for (const int s : Mesh::sides(f))
         if (mesh_.is_lower(s) && label_beside(s) != label_beside(mesh_.opposite(s)))

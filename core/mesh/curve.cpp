@@ -9,8 +9,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 1 << 14;  // points that are worth a task
-
 struct Keyed {
   std::uint64_t key;
   int number;
@@ -56,7 +54,7 @@ class Grid {
 };
 
 void sort_in_parallel(std::span<Keyed> points, int depth) {
-  if (depth == 0 || points.size() < 2 * grain) return std::sort(points.begin(), points.end());
+  if (depth == 0 || points.size() < 2 * grain::items) return std::sort(points.begin(), points.end());
   const auto half = points.size() / 2;
   parallel_pair([&] { sort_in_parallel(points.first(half), depth - 1); },
                 [&] { sort_in_parallel(points.subspan(half), depth - 1); });
@@ -69,7 +67,7 @@ std::vector<int> order_along_curve(std::span<const Point> points, const Box& box
   const Grid grid(box);
   const int n = static_cast<int>(points.size());
   std::vector<Keyed> keyed(points.size());
-  parallel_parts(n, grain, [&](int, int begin, int end) {
+  parallel_parts(n, grain::items, [&](int, int begin, int end) {
     for (int i = begin; i < end; ++i) keyed[i] = {grid.key(points[i]), i};
   });
   sort_in_parallel(keyed, 3);

@@ -14,8 +14,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 16384;  // faces that are worth a task
-
 std::string number_of(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
@@ -242,12 +240,12 @@ class Winder {
 // The filter of orientation() without what comes behind it, for points that may be anything.
 bool is_surely_upright(const Point& a, const Point& b, const Point& c) {
   const double l = (a.x - c.x) * (b.y - c.y), r = (a.y - c.y) * (b.x - c.x);
-  return l - r > orientation_error * (std::abs(l) + std::abs(r)) + underflow_error;
+  return l - r > orientation_bound(std::abs(l), std::abs(r));
 }
 
 bool has_upright_faces(const MeshData& data) {
   const auto exists = [&](int v) { return v >= 0 && v < data.n_vertices(); };
-  return find_first(data.n_faces(), grain, [&](int face) {
+  return find_first(data.n_faces(), grain::items, [&](int face) {
            const auto& [a, b, c] = data.triangles[face];
            const bool exist = exists(a) && exists(b) && exists(c);
            return !exist || !is_surely_upright(data.points[a], data.points[b], data.points[c]);

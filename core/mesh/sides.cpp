@@ -11,8 +11,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 16384;  // triangles that are worth a task
-
 struct Entry {
   Edge ends;
   int side;
@@ -44,9 +42,9 @@ class SidesByGroup {
   SidesByGroup(std::span<const Triangle> triangles, const Groups& groups)
       : first_(groups.count() + 1), entries_(new Entry[3 * triangles.size()]) {
     const int n = static_cast<int>(triangles.size()), n_groups = groups.count();
-    std::vector<std::vector<int>> places(n_parts(n, grain), std::vector<int>(n_groups));
+    std::vector<std::vector<int>> places(n_parts(n, grain::items), std::vector<int>(n_groups));
     const auto group_of = [&](const Edge& ends) { return groups.of(lower_end(ends)); };
-    parallel_parts(n, grain, [&](int part, int begin, int end) {
+    parallel_parts(n, grain::items, [&](int part, int begin, int end) {
       for_sides(triangles, begin, end, [&](const Edge& ends, int) { ++places[part][group_of(ends)]; });
     });
     int place = 0;
@@ -55,7 +53,7 @@ class SidesByGroup {
       for (auto& of_part : places) place += std::exchange(of_part[group], place);
     }
     first_[n_groups] = place;
-    parallel_parts(n, grain, [&](int part, int begin, int end) {
+    parallel_parts(n, grain::items, [&](int part, int begin, int end) {
       for_sides(triangles, begin, end, [&](const Edge& ends, int side) {
         entries_[places[part][group_of(ends)]++] = {ends, side};
       });

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
 #include "core/mesh/around.h"
 #include "kinemesh/predicates.h"
@@ -24,12 +25,10 @@ std::string number(int i) {
   return std::to_string(i);
 }
 
-constexpr int grain = 16384;  // things to look at that are worth a task
-
 // What `check` finds first among n things.
 template <class Check>
 Found first_among(int n, const Check& check) {
-  const int first = find_first(n, grain, [&](int i) { return check(i).has_value(); });
+  const int first = find_first(n, grain::items, [&](int i) { return check(i).has_value(); });
   return first == none ? std::nullopt : check(first);
 }
 
@@ -72,32 +71,8 @@ Found check_fans(const Mesh& mesh) {
   return first_among(mesh.n_vertices(), [&](int v) { return check_fan(mesh, v, degree[v]); });
 }
 
-// Sets of faces that are joined across edges; the face of the lowest number stands for its set.
-class Parts {
- public:
-  explicit Parts(int n_faces) : count_(n_faces), parent_(n_faces) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int count() const { return count_; }
-  void join(int f, int g) {
-    const auto [low, high] = std::minmax({representative(f), representative(g)});
-    if (low == high) return;
-    parent_[high] = low;
-    --count_;
-  }
-
- private:
-  int representative(int f) {
-    while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
-    return f;
-  }
-
-  int count_;
-  std::vector<int> parent_;
-};
-
 bool is_connected(const Mesh& mesh) {
-  Parts parts(mesh.n_faces());
+  DisjointSets parts(mesh.n_faces());  // faces that are joined across edges
   for (int f = 0; f < mesh.n_faces(); ++f)
     for (const int side : Mesh::sides(f))
       if (const int g = mesh.face_across(side); g > f) parts.join(f, g);
@@ -176,7 +151,7 @@ Found check_constraints(const Mesh& mesh) {
 Found check_finite(const Mesh& mesh) {
   return first_among(mesh.n_vertices(), [&](int v) -> Found {
     const Point& p = mesh.position(v);
-    if (std::isfinite(p.x) && std::isfinite(p.y)) return std::nullopt;
+    if (is_finite(p)) return std::nullopt;
     return Defect{.kind = DefectKind::NonFinitePosition, .vertices = {mesh.user_vertex(v)}};
   });
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/cdt/refine.h"
+#include "core/mesh/sides.h"
 #include "core/shapes/shape_parts.h"
 #include "kinemesh/predicates.h"
 #include "kinemesh/shapes.h"
@@ -71,14 +72,11 @@ Border sample(const Domain& domain, const SizeField& size) {
 
 // The vertex after each border vertex, the domain to the left; none for the others.
 std::vector<int> border_successors(const Refinement& mesh) {
-  std::vector<Edge> sides;
-  for (const Triangle& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) sides.push_back({t[k], t[(k + 1) % 3]});
-  }
-  std::sort(sides.begin(), sides.end());
+  const auto opposite = pair_sides(mesh.triangles, static_cast<int>(mesh.points.size())).opposite;
   std::vector<int> next(mesh.points.size(), none);
-  for (const auto& [a, b] : sides) {
-    if (!std::binary_search(sides.begin(), sides.end(), Edge{b, a})) next[a] = b;
+  for (int side = 0; side < static_cast<int>(opposite.size()); ++side) {
+    const auto [a, b] = ends_of_side(mesh.triangles, side);
+    if (opposite[side] == none) next[a] = b;
   }
   return next;
 }

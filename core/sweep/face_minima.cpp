@@ -11,8 +11,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 256;  // stretches that are worth a task
-
 Minima smaller(const Minima& a, const Minima& b) {
   return {std::min(a.twice_area, b.twice_area), std::min(a.tangent, b.tangent)};
 }
@@ -56,7 +54,7 @@ void FaceMinima::outdate_moved(const Mesh& mesh, const MovedBlocks* moved) {
   const int n = n_stretches(mesh.n_faces());
   if (!moved || n != static_cast<int>(known_.size()) || moved->contain_all()) return reset(mesh.n_faces());
   corners_.resize(n);
-  parallel_parts(n, grain, [&](int, int begin, int end) {
+  parallel_parts(n, grain::stretches, [&](int, int begin, int end) {
     for (int s = begin; s < end; ++s)
       if (known_[s] != Known::Nothing && has_moved(s, mesh, *moved)) known_[s] = Known::Nothing;
   });
@@ -120,7 +118,7 @@ Minima FaceMinima::update(const Mesh& mesh) {
     for (int i = begin; i < end; ++i) set(unknown_[i], look_at_stretch(mesh, unknown_[i]), mesh);
   };
   try {
-    parallel_parts(n, grain, measure);
+    parallel_parts(n, grain::stretches, measure);
   } catch (const std::bad_alloc&) {  // of TBB
     measure(0, 0, n);
   }

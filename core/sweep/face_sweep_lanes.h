@@ -50,7 +50,7 @@ class Sweep {
   void judge(Doubles p, Doubles q) {
     const Doubles l = Lanes::firsts(p, q), r = Lanes::seconds(p, q);
     cross_ = l - r;
-    upright_ = cross_ > orientation_error * (magnitude(l) + magnitude(r)) + underflow_error;
+    upright_ = cross_ > orientation_bound(magnitude(l), magnitude(r));
   }
 
   // As tangent_of_smallest_angle does.

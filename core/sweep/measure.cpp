@@ -10,12 +10,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 1 << 14;  // faces that are worth a task
-
-double dot(const Point& a, const Point& b) {
-  return a.x * b.x + a.y * b.y;
-}
-
 // Two sums that do not wait for each other.
 using Sums = std::array<double, 2>;
 
@@ -29,7 +23,7 @@ Sums areas(const Mesh& mesh, int begin, int end) {
 
 double area(const Mesh& mesh) {
   std::array<Sums, most_parts> parts{};
-  parallel_parts(mesh.n_faces(), grain,
+  parallel_parts(mesh.n_faces(), grain::items,
                  [&](int part, int begin, int end) { parts[part] = areas(mesh, begin, end); });
   Sums total{};
   for (const Sums& sums : parts)
@@ -40,8 +34,7 @@ double area(const Mesh& mesh) {
 }  // namespace
 
 double twice_area(const std::array<Point, 3>& p) {
-  const Point u = p[0] - p[2], v = p[1] - p[2];
-  return u.x * v.y - u.y * v.x;
+  return cross(p[0] - p[2], p[1] - p[2]);
 }
 
 // It has the largest dot product of its sides: those at the last corner, the first and the second are uv,

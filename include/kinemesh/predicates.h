@@ -31,7 +31,7 @@ inline Orientation orientation(const Point& a, const Point& b, const Point& c) {
   const double l = (a.x - c.x) * (b.y - c.y);
   const double r = (a.y - c.y) * (b.x - c.x);
   const double det = l - r;
-  if (std::abs(det) > orientation_error * (std::abs(l) + std::abs(r)) + underflow_error) {
+  if (std::abs(det) > orientation_bound(std::abs(l), std::abs(r))) {
     return det > 0.0 ? Orientation::CounterClockwise : Orientation::Clockwise;
   }
   return orientation_exact(a, b, c);

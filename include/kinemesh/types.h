@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <glm/vec2.hpp>
 #include <limits>
 
@@ -16,5 +17,17 @@ using Edge = std::array<int, 2>;      // vertex numbers
 inline constexpr int padding_label = std::numeric_limits<int>::min();
 
 inline constexpr int none = -1;  // "no such vertex, face, edge or marker"
+
+inline double dot(const Point& a, const Point& b) {
+  return a.x * b.x + a.y * b.y;
+}
+
+inline double cross(const Point& a, const Point& b) {  // twice the signed area of 0, a, b
+  return a.x * b.y - a.y * b.x;
+}
+
+inline bool is_finite(const Point& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
 
 }  // namespace kinemesh

@@ -10,7 +10,6 @@ namespace kinemesh {
 namespace {
 
 constexpr double least_area = 1e-4;  // over the sum of the squares of the sides
-constexpr int grain = 1 << 12;       // faces
 
 double scale_of(const std::array<Point, 3>& corners) {
   double squares = 0.0;
@@ -42,7 +41,7 @@ void set_entry(Block& entry, double scale, const Point& side_i, const Point& sid
 void scale_faces(const Mesh& mesh, std::span<const Point> positions, const std::map<int, double>& by_label,
                  std::vector<double>& scales) {
   scales.resize(mesh.n_faces());
-  parallel_parts(mesh.n_faces(), grain, [&](int, int begin, int end) {
+  parallel_parts(mesh.n_faces(), grain::moves, [&](int, int begin, int end) {
     for (int f = begin; f < end; ++f) {
       const auto& [a, b, c] = mesh.triangles()[f];
       scales[f] = mesh.is_padding(f) ? 0.0

@@ -22,8 +22,7 @@ inline int n_blocks(int n_vertices) {
 // blocks and depend on n only.
 template <class Body>
 void parallel_blocks(int n_vertices, const Body& body) {
-  constexpr int grain = 64;  // blocks
-  parallel_parts(n_blocks(n_vertices), grain, [&](int part, int begin, int end) {
+  parallel_parts(n_blocks(n_vertices), grain::stretches / 4, [&](int part, int begin, int end) {
     body(part, begin * block_vertices, std::min(end * block_vertices, n_vertices));
   });
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 #include <span>
+#include <utility>
 
 #include "core/mesh/sides.h"
 #include "kinemesh/build.h"
+#include "kinemesh/measure.h"
 #include "kinemesh/predicates.h"
 #include "kinemesh/validate.h"
 #include "sim/cli/adjacency.h"
@@ -24,22 +24,14 @@ std::vector<Orientation> orientations(const MeshData& data) {
   return result;
 }
 
-double cross(const Point& u, const Point& v) {
-  return u.x * v.y - u.y * v.x;
+std::array<Point, 3> corners_of(const MeshData& data, const Triangle& t) {
+  return {data.points[t[0]], data.points[t[1]], data.points[t[2]]};
 }
 
-double signed_area(const MeshData& data, const Triangle& t) {
-  return 0.5 * cross(data.points[t[1]] - data.points[t[0]], data.points[t[2]] - data.points[t[0]]);
-}
-
-double smallest_angle_deg(const MeshData& data, const Triangle& t) {
-  double smallest = std::numbers::pi;
-  for (int k = 0; k < 3; ++k) {
-    const Point u = data.points[t[(k + 1) % 3]] - data.points[t[k]];
-    const Point v = data.points[t[(k + 2) % 3]] - data.points[t[k]];
-    smallest = std::min(smallest, std::atan2(std::abs(cross(u, v)), glm::dot(u, v)));
-  }
-  return smallest * 180.0 / std::numbers::pi;
+// Of an inverted face that of its mirror image.
+double smallest_angle_deg(std::array<Point, 3> corners) {
+  if (twice_area(corners) < 0.0) std::swap(corners[1], corners[2]);
+  return degrees(tangent_of_smallest_angle(corners));
 }
 
 void measure(const MeshData& data, const std::vector<Orientation>& signs, CheckReport& report) {
@@ -49,8 +41,9 @@ void measure(const MeshData& data, const std::vector<Orientation>& signs, CheckR
   for (int face = 0; face < data.n_faces(); ++face) {
     const Triangle& t = data.triangles[face];
     const bool is_flat = signs[face] == Orientation::Collinear;
-    report.min_angle_deg = std::min(report.min_angle_deg, is_flat ? 0.0 : smallest_angle_deg(data, t));
-    report.min_area = std::min(report.min_area, is_flat ? 0.0 : signed_area(data, t));
+    report.min_angle_deg =
+        std::min(report.min_angle_deg, is_flat ? 0.0 : smallest_angle_deg(corners_of(data, t)));
+    report.min_area = std::min(report.min_area, is_flat ? 0.0 : 0.5 * twice_area(corners_of(data, t)));
   }
 }
 

@@ -66,10 +66,6 @@ bool is_same(const Point& a, const Point& b) {
   return a.x == b.x && a.y == b.y;
 }
 
-bool is_finite(const Point& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y);
-}
-
 // A list of the moved ones pays where it is shorter than all positions.
 void add_positions(const StepChanges& changes, PatchesStep& step) {
   const int n = changes.mesh.n_user_vertices();

@@ -18,10 +18,6 @@ namespace {
 
 using Corners = std::array<Point, 3>;
 
-double cross(const Point& a, const Point& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
 double signed_area(const Corners& t) {
   return cross(t[1] - t[0], t[2] - t[0]) / 2;
 }

@@ -5,25 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/disjoint_sets.h"
+
 namespace kinemesh {
 namespace {
-
-// Disjoint sets of the numbers 0 to n - 1.
-class DisjointSets {
- public:
-  explicit DisjointSets(int n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int i, int j) {  // the smaller root stays
-    const auto [low, high] = std::minmax({root(i), root(j)});
-    parent_[high] = low;
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 // Calls visit(face) for those that the region has replaced.
 template <class Visit>

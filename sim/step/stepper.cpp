@@ -16,8 +16,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 16384;  // vertices that are worth a task
-
 // Shortest text that reads back as the same number.
 std::string exact_text(double value) {
   char buffer[32];
@@ -31,15 +29,11 @@ void add_time(Defect& defect, double time) {
   defect.detail += "at time " + exact_text(time);
 }
 
-bool is_finite(const Point& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y);
-}
-
 // describe(vertex) names what moved it.
 template <class Describe>
 std::optional<Defect> non_finite_defect(const Mesh& mesh, std::span<const Point> next,
                                         const Describe& describe) {
-  const int vertex = find_first(mesh.n_vertices(), grain, [&](int v) { return !is_finite(next[v]); });
+  const int vertex = find_first(mesh.n_vertices(), grain::items, [&](int v) { return !is_finite(next[v]); });
   if (vertex == none) return std::nullopt;
   Defect defect;
   defect.kind = DefectKind::NonFinitePosition;

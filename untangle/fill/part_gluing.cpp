@@ -18,7 +18,7 @@ int corner_at(const PlaneFace& face, int v) {
 
 class Gluing {
  public:
-  Gluing(const RemeshableSet& set, const ShadowBorder& border) : set_(set) {
+  Gluing(const RemeshableSet& set, const ShadowBorder& border) : set_(set), border_(border) {
     surface_.points = border.points;
   }
 
@@ -49,7 +49,7 @@ class Gluing {
     const auto& [corners, sides] = part[i];
     const auto& across = sides[k];
     const int side = first + 3 * i + k;
-    surface_.constraints[side] = across.constraint;
+    surface_.constraints[side] = across.sub == none ? across.constraint : constraint_under(across.sub);
     if (across.face != none)
       surface_.glue(side, first + 3 * across.face + corner_at(part[across.face], corners[(k + 1) % 3]));
     else if (across.sub == none && !set_.is_inner(across.mesh_side))
@@ -57,6 +57,9 @@ class Gluing {
     else
       seams_[seam_of(set_.mesh(), part[i], k)].push_back(side);
   }
+
+  // Of the crease that the sub-segment lies on.
+  int constraint_under(int sub) const { return set_.mesh().constraint_of(border_.subs[sub].crease); }
 
   // False if one does not have two sides.
   bool close_seams() {
@@ -144,6 +147,7 @@ class Gluing {
   }
 
   const RemeshableSet& set_;
+  const ShadowBorder& border_;
   Surface surface_;
   std::map<Seam, std::vector<int>> seams_;  // the sides along each
 };

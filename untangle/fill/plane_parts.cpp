@@ -126,9 +126,10 @@ class PartsMesher {
     }
   }
 
-  // Along mesh edges, outside X.
+  // Along mesh edges, outside X or on its border.
   std::set<Seam> seams_met() const {
     std::set<Seam> met;
+    for (const auto& sub : border_.subs) met.insert(seam_along(sub.crease, sub.from, sub.to));
     for (const auto& part : parts_) {
       for (const auto& face : part) {
         for (int k = 0; k < 3; ++k) {
@@ -155,8 +156,9 @@ class PartsMesher {
   std::vector<int> stops_along(int mesh_side) const {
     const int a = set_.number(mesh_.from(mesh_side)), b = set_.number(mesh_.to(mesh_side));
     std::vector<int> stops{a, b};
-    add_extra_on(a, b, Mesh::face_of(mesh_side), stops);
-    add_extra_on(a, b, mesh_.face_across(mesh_side), stops);
+    add_extra_on(a, b, border_.subs_of, Mesh::face_of(mesh_side), stops);
+    add_extra_on(a, b, border_.subs_of, mesh_.face_across(mesh_side), stops);
+    add_extra_on(a, b, border_.subs_along, mesh_.lower(mesh_side), stops);
     const auto& p = border_.points;
     std::sort(stops.begin(), stops.end(),
               [&](int v, int w) { return CGAL::has_smaller_distance_to_point(p[a], p[v], p[w]); });
@@ -164,10 +166,11 @@ class PartsMesher {
     return stops;
   }
 
-  // Of the sub-segments of a face, the extra vertices on its side from a to b.
-  void add_extra_on(int a, int b, int face, std::vector<int>& stops) const {
-    const auto subs = border_.subs_of.find(face);
-    if (subs == border_.subs_of.end()) return;
+  // Of the sub-segments of a face, or along a crease, the extra vertices on the line from a to b.
+  void add_extra_on(int a, int b, const std::map<int, std::vector<int>>& subs_by, int key,
+                    std::vector<int>& stops) const {
+    const auto subs = subs_by.find(key);
+    if (subs == subs_by.end()) return;
     for (const int s : subs->second) {
       for (const int v : {border_.subs[s].from, border_.subs[s].to}) {
         if (v >= set_.n_vertices() && are_collinear(a, b, v)) stops.push_back(v);

@@ -10,8 +10,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 16;  // regions that are worth a task
-
 // After so many rings of neighbours the whole mesh is taken.
 constexpr int max_rings = 4;
 
@@ -47,7 +45,7 @@ void RegionRepair::take_new(const Mesh& mesh) {
 
 std::optional<Defect> RegionRepair::remesh_taken(const Mesh& mesh, const RepairOptions& options) {
   const int n = static_cast<int>(attempts_.size());
-  parallel_parts(n, grain, [&](int, int begin, int end) {
+  parallel_parts(n, grain::regions, [&](int, int begin, int end) {
     for (int i = begin; i < end; ++i) attempts_[i] = attempt(mesh, options, first_taken_ + i, holes_[i]);
   });
   for (int i = 0; i < n; ++i) {

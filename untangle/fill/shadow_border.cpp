@@ -179,7 +179,8 @@ class BorderTracer {
   void add_sub_segment(const Crease& crease, const Place& low, const Place& high, int face) {
     const int from = vertex_on(crease, low), to = vertex_on(crease, high);
     border_.subs_of[face].push_back(static_cast<int>(border_.subs.size()));
-    border_.subs.push_back({from, to, face});
+    border_.subs_along[crease.edge].push_back(static_cast<int>(border_.subs.size()));
+    border_.subs.push_back({from, to, face, crease.edge});
   }
 
   int vertex_on(const Crease& crease, const Place& place) {

@@ -15,12 +15,14 @@ namespace kinemesh {
 struct SubSegment {
   int from, to;  // vertices
   int face;      // of the mesh
+  int crease;    // the mesh edge it lies on, by its lower side
 };
 
 struct ShadowBorder {
   std::vector<ExactPoint> points;  // by vertex: those of R* by number, then the extra ones
   std::vector<SubSegment> subs;
-  std::map<int, std::vector<int>> subs_of;  // by face: the numbers of its sub-segments
+  std::map<int, std::vector<int>> subs_of;     // by face: the numbers of its sub-segments
+  std::map<int, std::vector<int>> subs_along;  // likewise, by crease
 };
 
 // An end of a sub-segment at the place of a vertex of J is that vertex, any other is an extra one. Nothing if

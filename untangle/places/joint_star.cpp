@@ -22,13 +22,7 @@ constexpr double least_share = 1e-4;  // of the gain a step promises that it has
 constexpr double least_gain = 1e-6;   // of the energy: a smaller one ends it
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-double dot(const Point& a, const Point& b) {
-  return a.x * b.x + a.y * b.y;
-}
-
-double cross(const Point& a, const Point& b) {
-  return a.x * b.y - a.y * b.x;
-}
+using kinemesh::dot;
 
 double dot(std::span<const Point> a, std::span<const Point> b) {
   double sum = 0.0;

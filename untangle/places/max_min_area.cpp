@@ -10,10 +10,6 @@
 namespace kinemesh {
 namespace {
 
-double dot(const Point& a, const Point& b) {
-  return a.x * b.x + a.y * b.y;
-}
-
 // A function with a smaller gradient is a constant, up to rounding: gradients of areas are the link's edges,
 // in a box of size 1.
 constexpr double no_gradient = 1e-14;
@@ -49,7 +45,7 @@ std::optional<Point> MaxMinArea::operator()(std::span<const LinkEdge> link) {
   areas_.clear();
   for (const auto& [from, to] : link) {
     const Point p = (from - centre) / size, q = (to - centre) / size, e = q - p;
-    areas_.push_back({Point(-e.y, e.x), p.x * q.y - p.y * q.x});
+    areas_.push_back({Point(-e.y, e.x), cross(p, q)});
   }
   shuffle(areas_);
   half_ = 0.5 / size * extent;

@@ -16,14 +16,6 @@ constexpr double nearly_smallest = 1e-3;  // radians above the smallest that cou
 constexpr double least_share = 0.1;       // of the gain a step promises that it has to bring
 constexpr double least_gain = 1e-5;       // radians a step must bring for another to be tried
 
-double dot(const Point& a, const Point& b) {
-  return a.x * b.x + a.y * b.y;
-}
-
-double cross(const Point& a, const Point& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
 // One angle of one triangle, as a function of the place of the vertex.
 struct Angle {
   double value;    // radians

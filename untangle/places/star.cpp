@@ -17,10 +17,6 @@ bool comes_before(const Point& a, const Point& b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
-double dot(const Point& a, const Point& b) {
-  return a.x * b.x + a.y * b.y;
-}
-
 // Exactly on horizontal and vertical lines.
 Point along(const Point& x, const Point& direction, double distance) {
   return {direction.x == 0.0 ? x.x : x.x + distance * direction.x,

@@ -17,8 +17,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 32;                // places or faces that are worth a task
-constexpr int joint_grain = 1;           // and joint moves
 constexpr std::array rings{1, 2, 4, 8};  // of faces around a bad one, whose vertices move together
 constexpr double least_gain = 1e-4;      // of the angle
 constexpr double rounding = 0x1p-44;     // of tangents up to that of 60 degrees, whichever corner comes first
@@ -170,7 +168,8 @@ void AngleUpkeep::propose(const Mesh& mesh) {
     for (const int v : mesh.triangles()[face]) ask_for_place(mesh, v);
   find_places(mesh);
   proposals_.resize(bad_.size());
-  for_all(static_cast<int>(bad_.size()), grain, [&](int i) { proposals_[i] = best_at(mesh, bad_[i]); });
+  for_all(static_cast<int>(bad_.size()), grain::places,
+          [&](int i) { proposals_[i] = best_at(mesh, bad_[i]); });
   std::erase_if(proposals_, [](const auto& proposal) { return proposal.is_none(); });
 }
 
@@ -181,7 +180,7 @@ void AngleUpkeep::propose_jointly(const Mesh& mesh) {
   for (const int face : bad_)
     if (const auto [at, is_new] = joints_.try_emplace(face, Joint{.face = face}); is_new)
       asked.push_back(&at->second);
-  for_all(static_cast<int>(asked.size()), joint_grain, [&](int i) { find_joint(mesh, *asked[i]); });
+  for_all(static_cast<int>(asked.size()), 1, [&](int i) { find_joint(mesh, *asked[i]); });
   for (const int face : bad_)
     if (const Joint& joint = joints_.at(face); joint.after != 0.0)
       proposals_.push_back(proposal_of(mesh, joint));
@@ -259,7 +258,7 @@ void AngleUpkeep::ask_for_place(const Mesh& mesh, int vertex) {
 
 void AngleUpkeep::find_places(const Mesh& mesh) {
   const std::span<Place> asked = std::span(places_).subspan(n_found_);
-  for_all(static_cast<int>(asked.size()), grain, [&](int i) { find_place(mesh, asked[i]); });
+  for_all(static_cast<int>(asked.size()), grain::places, [&](int i) { find_place(mesh, asked[i]); });
   n_found_ = places_.size();
 }
 

@@ -14,8 +14,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 16;  // regions that are worth a task
-
 void require_before(const Mesh& mesh, std::span<const Point> before) {
   if (static_cast<int>(before.size()) == mesh.n_vertices()) return;
   throw InputError("strategy kinetic: " + std::to_string(before.size()) +
@@ -101,7 +99,7 @@ void KineticUntangling::find_regions(const Mesh& mesh, std::span<const int> rewr
 void KineticUntangling::describe_regions(const Mesh& mesh, RepairRecord& record) {
   auto& records = record.regions;
   records.resize(regions_.count());
-  parallel_parts(regions_.count(), grain, [&](int, int begin, int end) {
+  parallel_parts(regions_.count(), grain::regions, [&](int, int begin, int end) {
     Hole hole;
     for (int region = begin; region < end; ++region) {
       hole.dig(mesh, regions_, region);

@@ -11,8 +11,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 1 << 14;  // faces that are worth a task
-
 bool may_collapse(const Triangle& t, const Point* x0, const Point* x1) {
   const auto [a, b, c] = t;
   if (x0[a] == x1[a] && x0[b] == x1[b] && x0[c] == x1[c]) return false;
@@ -22,8 +20,8 @@ bool may_collapse(const Triangle& t, const Point* x0, const Point* x1) {
 // Ascending.
 std::vector<int> faces_that_may_collapse(const Mesh& mesh, std::span<const Point> before) {
   const auto triangles = mesh.triangles();
-  std::vector<std::vector<int>> found(n_parts(mesh.n_faces(), grain));
-  parallel_parts(mesh.n_faces(), grain, [&](int part, int begin, int end) {
+  std::vector<std::vector<int>> found(n_parts(mesh.n_faces(), grain::items));
+  parallel_parts(mesh.n_faces(), grain::items, [&](int part, int begin, int end) {
     for (int f = begin; f < end; ++f) {
       fetch_ahead(triangles, before, f);
       fetch_ahead(triangles, mesh.positions(), f);

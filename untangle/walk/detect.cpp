@@ -10,8 +10,6 @@
 namespace kinemesh {
 namespace {
 
-constexpr int grain = 256;  // stretches that are worth a task
-
 void judge(const Mesh& mesh, int f, Tangles& found) {
   const auto [a, b, c] = mesh.corners(f);
   const auto turn = orientation(a, b, c);
@@ -60,8 +58,8 @@ class Ranks {
 Tangles detect(const Mesh& mesh, FaceMinima* minima, const MovedBlocks* moved) {
   if (minima) minima->outdate_moved(mesh, moved);
   const int n = n_stretches(mesh.n_faces());
-  std::vector<Tangles> found(n_parts(n, grain));
-  parallel_parts(n, grain, [&](int part, int begin, int end) {
+  std::vector<Tangles> found(n_parts(n, grain::stretches));
+  parallel_parts(n, grain::stretches, [&](int part, int begin, int end) {
     for (int stretch = begin; stretch < end; ++stretch) sweep(mesh, stretch, found[part], minima);
   });
   Tangles all;
