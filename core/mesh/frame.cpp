@@ -49,6 +49,17 @@ void enlarge(const Mesh& mesh, std::span<Point> next) {
   for (int i = 0; i < 4; ++i) next[mesh.frame()[i]] = fresh[i];
 }
 
+std::optional<Defect> non_finite_corner(const Mesh& mesh, std::span<const Point> next) {
+  for (const int corner : mesh.frame()) {
+    if (std::isfinite(next[corner].x) && std::isfinite(next[corner].y)) continue;
+    return Defect{.kind = DefectKind::NonFinitePosition,
+                  .vertices = {none},
+                  .where = mesh.position(corner),
+                  .detail = "the frame cannot follow, a smaller frame or smaller coordinates expected"};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::array<Point, 4> frame_around(std::span<const Point> points, double margin) {
@@ -57,8 +68,8 @@ std::array<Point, 4> frame_around(std::span<const Point> points, double margin) 
   return rectangle(box, margin);
 }
 
-void follow(const Mesh& mesh, std::span<Point> next) {
-  if (mesh.frame().empty()) return;
+std::optional<Defect> follow(const Mesh& mesh, std::span<Point> next) {
+  if (mesh.frame().empty()) return std::nullopt;
   const auto box = domain_box(mesh);
   const Point low = mesh.position(mesh.frame()[0]), high = mesh.position(mesh.frame()[2]);
   const auto gaps = {box.low.x - low.x, box.low.y - low.y, high.x - box.high.x, high.y - box.high.y};
@@ -70,6 +81,7 @@ void follow(const Mesh& mesh, std::span<Point> next) {
     next[corner] = stays ? mesh.position(corner) : fresh[i];
   }
   enlarge(mesh, next);
+  return non_finite_corner(mesh, next);
 }
 
 std::optional<Defect> hull_defect(const Mesh& mesh, std::span<const Point> next) {

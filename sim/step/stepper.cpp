@@ -147,8 +147,8 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   interior_ms_ = 0.0;
   has_followed_ = false;
   outcome.defect = move(std::span<Point>(next_));
+  if (!outcome.defect) outcome.defect = kinemesh::follow(mesh_, next_);
   if (!outcome.defect) {
-    kinemesh::follow(mesh_, next_);
     moved_.find(mesh_.positions(), next_);
     outcome.defect = hull_defect(mesh_, next_);
   }
