@@ -26,11 +26,12 @@ extern "C" {
 typedef enum kinemesh_status {
   KINEMESH_OK = 0,
   KINEMESH_NO_VALID_MESH = 1, /* the domain has none with these positions: borders cross, vertices coincide */
-  KINEMESH_BAD_INPUT = 2,     /* the caller's mistake, or a file's */
+  KINEMESH_BAD_INPUT = 2,     /* the caller's mistake, or a file's; positions that are not finite, too */
   KINEMESH_OUT_OF_MEMORY = 3,
-  KINEMESH_VETOED = 4,      /* an observer returned something else than 0 */
-  KINEMESH_BUG = 5,         /* a mistake of kinemesh; please report it with its message */
-  KINEMESH_NO_RESOURCES = 6 /* a full disk, a limit of files or of their size, a device that fails */
+  KINEMESH_VETOED = 4,       /* an observer returned something else than 0 */
+  KINEMESH_BUG = 5,          /* a mistake of kinemesh; please report it with its message */
+  KINEMESH_NO_RESOURCES = 6, /* a full disk, a limit of files or of their size, a device that fails */
+  KINEMESH_STUCK = 7         /* "flips", "optimize" do not get on: another strategy may find a mesh */
 } kinemesh_status;
 
 /* What went wrong in the last call of this thread that failed, in one line; never NULL. Valid until the next

@@ -278,7 +278,7 @@ static void leaves_everything_as_it_was_when_bodies_cannot_move(void) {
     const char *path, *told;
     kinemesh_status status;
   } cases[] = {{"9 * t", "crosses", KINEMESH_NO_VALID_MESH},
-               {"t < 0.25 ? t : sqrt(-1)", "body marker:hole", KINEMESH_NO_VALID_MESH}};
+               {"t < 0.25 ? t : sqrt(-1)", "body marker:hole", KINEMESH_BAD_INPUT}};
   kinemesh_stepper* stepper;
   double before[2 * n_ring], xy[2 * n_ring];
   int32_t faces[3 * n_ring_faces], now[3 * n_ring_faces];
@@ -332,6 +332,58 @@ static void leaves_everything_as_it_was_when_it_fails(void) {
   CHECK(memcmp(xy, points, sizeof points) == 0 && memcmp(now, triangles, sizeof triangles) == 0);
   CHECK(kinemesh_stepper_time(stepper) == 0);
   kinemesh_stepper_destroy(stepper);
+}
+
+/* Vertex 4 beyond a side of the square it is the middle of: there is a mesh only if it moves, or flips do not find
+ * one where it is. */
+static void tells_stuck_from_impossible(void) {
+  static const double xy[] = {0, 0, 2, 0, 2, 2, 0, 2, 1, -1}, other[] = {0, 0, 2, 0, 2, 2, 0, 2, 1, 1};
+  static const int32_t faces[] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+  static const char* const strategies[] = {"flips", "optimize"};
+  kinemesh_mesh* mesh = NULL;
+  kinemesh_stepper* stepper;
+  kinemesh_options options = kinemesh_default_options();
+  double nowhere[2 * n_vertices], back[10];
+  int i;
+  CHECK(kinemesh_mesh_create(5, xy, 4, faces, NULL, &mesh) == KINEMESH_OK);
+  CHECK(kinemesh_mesh_untangle(mesh, "flips") == KINEMESH_STUCK);
+  CHECK(strstr(kinemesh_error(), "stuck"));
+  CHECK(kinemesh_mesh_untangle(mesh, "global") == KINEMESH_NO_VALID_MESH);
+  kinemesh_mesh_destroy(mesh);
+
+  for (i = 0; i < 2; ++i) {
+    options.strategy = strategies[i];
+    options.frame = 2;
+    CHECK(kinemesh_mesh_create(5, other, 4, faces, NULL, &mesh) == KINEMESH_OK);
+    stepper = stepper_on(mesh, &options);
+    memcpy(back, other, sizeof other);
+    back[5] = back[7] = -2; /* the upper side below the lower one */
+    CHECK(kinemesh_stepper_step(stepper, back, 1, NULL) == KINEMESH_STUCK);
+    CHECK(strstr(kinemesh_error(), "stuck"));
+    CHECK(kinemesh_stepper_get(stepper, back, NULL, NULL) == KINEMESH_OK);
+    CHECK(memcmp(back, other, sizeof other) == 0 && kinemesh_stepper_time(stepper) == 0);
+    kinemesh_stepper_destroy(stepper);
+  }
+
+  stepper = stepper_on(square(), NULL);
+  memcpy(nowhere, points, sizeof points);
+  nowhere[12] = sqrt(-1.0);
+  CHECK(kinemesh_stepper_step(stepper, nowhere, 1, NULL) == KINEMESH_BAD_INPUT);
+  CHECK(strstr(kinemesh_error(), "vertex 6"));
+  nowhere[12] = HUGE_VAL;
+  CHECK(kinemesh_stepper_step(stepper, nowhere, 1, NULL) == KINEMESH_BAD_INPUT);
+  check_upright(stepper);
+  kinemesh_stepper_destroy(stepper);
+}
+
+/* The arrays are not looked at: there need not be any. */
+static void refuses_more_than_numbers_go(void) {
+  kinemesh_mesh* mesh = NULL;
+  const int32_t most = (1 << 28) - 1;
+  CHECK(kinemesh_mesh_create(n_vertices, points, most + 1, triangles, NULL, &mesh) == KINEMESH_BAD_INPUT);
+  CHECK(strstr(kinemesh_error(), "268435455") && mesh == NULL);
+  CHECK(kinemesh_mesh_create(INT32_MAX, points, n_faces, triangles, NULL, &mesh) == KINEMESH_BAD_INPUT);
+  CHECK(strstr(kinemesh_error(), "268435455") && mesh == NULL);
 }
 
 static void refuses_what_is_no_mesh(void) {
@@ -402,6 +454,8 @@ int main(int argc, char** argv) {
   refuses_scenarios_with_the_line_and_the_key();
   leaves_everything_as_it_was_when_bodies_cannot_move();
   leaves_everything_as_it_was_when_it_fails();
+  tells_stuck_from_impossible();
+  refuses_more_than_numbers_go();
   refuses_what_is_no_mesh();
   keeps_markers_and_labels(argv[1]);
   return 0;

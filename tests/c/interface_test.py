@@ -17,7 +17,7 @@ except ImportError:
 LIBRARY = ctypes.CDLL(os.environ["KINEMESH_LIBRARY"])
 LIBRARY.kinemesh_error.restype = ctypes.c_char_p
 LIBRARY.kinemesh_stepper_positions.restype = POINTER(c_double)
-OK, NO_VALID_MESH, BAD_INPUT, _, VETOED = range(5)
+OK, NO_VALID_MESH, BAD_INPUT, _, VETOED, _, _, STUCK = range(8)
 
 
 class Patch(ctypes.Structure):
@@ -135,7 +135,17 @@ class Interface(unittest.TestCase):
         self.assertEqual(step(stepper, address(moved, c_double), c_double(1), None), NO_VALID_MESH)
         self.assertIn(b"11", LIBRARY.kinemesh_error())
         self.assertEqual(step(stepper, address(moved, c_double), c_double(-1), None), BAD_INPUT)
+        moved[24] = math.nan
+        self.assertEqual(step(stepper, address(moved, c_double), c_double(1), None), BAD_INPUT)
         self.assertEqual(self.faces(stepper), triangles)
+
+    def test_stuck_is_not_impossible(self):
+        xy, triangles = array("d", (0, 0, 2, 0, 2, 2, 0, 2, 1, -1)), array("i", (0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4))
+        mesh = c_void_p()
+        self.call("mesh_create", 5, address(xy, c_double), 4, address(triangles, c_int32), None, ctypes.byref(mesh))
+        self.addCleanup(LIBRARY.kinemesh_mesh_destroy, mesh)
+        self.assertEqual(LIBRARY.kinemesh_mesh_untangle(mesh, b"flips"), STUCK)
+        self.assertEqual(LIBRARY.kinemesh_mesh_untangle(mesh, b"global"), NO_VALID_MESH)
 
     def test_positions_in_place(self):
         points, triangles = grid(4)
