@@ -46,6 +46,13 @@ struct PhaseTimes {
   double write = 0.0;  // logs and meshes, beside the steps
 };
 
+// What a run ended early for.
+enum class StopCause {
+  Other,   // a step without valid mesh, the scenario, a signal, a file that cannot be written
+  Memory,  // it has run out
+  Bug,     // a mistake of kinemesh: a std::logic_error
+};
+
 struct RunSummary {
   RunPlan plan;
   int steps = 0;           // accepted
@@ -66,6 +73,7 @@ struct RunSummary {
   long long retries = 0;
   PhaseTimes ms;
   std::optional<std::string> stopped;        // why it ended early; nothing: all steps ended valid
+  StopCause stop_cause = StopCause::Other;   // of `stopped`
   bool can_resume = false;                   // `stopped` is no property of the scenario
   bool was_finished = false;                 // the run to resume had come to its end: nothing was done
   std::vector<std::filesystem::path> files;  // to open: the series, the last mesh, the logs
