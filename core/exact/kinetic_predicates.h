@@ -4,8 +4,8 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "kinemesh/predicates.h"
@@ -44,7 +44,34 @@ inline bool is_surely_positive(const RoundedQuadratic& q) {
 class CollapseTime;
 struct ExactQuadratic;
 
-// A product of two vectors that change linearly, as a function of time.
+// A quadratic in integers that is worked out once it is needed, which is hardly ever. Several threads may need
+// it at once: one is kept. A copy has its own.
+class ExactOnce {
+ public:
+  ExactOnce() = default;
+  ExactOnce(const ExactOnce& other);
+  ExactOnce(ExactOnce&& other) noexcept : kept_(other.get()) { other.set(nullptr); }
+  ExactOnce& operator=(ExactOnce other) noexcept {
+    const auto* mine = get();
+    set(other.get());
+    other.set(mine);
+    return *this;
+  }
+  ~ExactOnce() {
+    if (get()) destroy();
+  }
+  const ExactQuadratic* get() const { return kept_.load(std::memory_order_acquire); }  // null if not yet needed
+  const ExactQuadratic& keep(ExactQuadratic&& fresh) const;  // the first that came
+
+ private:
+  void set(const ExactQuadratic* known) { kept_.store(known, std::memory_order_relaxed); }  // alone with it
+  void destroy() noexcept;
+
+  mutable std::atomic<const ExactQuadratic*> kept_ = nullptr;
+};
+
+// A product of two vectors that change linearly, as a function of time. Constant members may be called by several
+// threads at once.
 class KineticQuadratic {
  public:
   static KineticQuadratic area(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c);  // twice
@@ -71,7 +98,7 @@ class KineticQuadratic {
   std::array<MovingPoint, 3> corners_;
   bool is_dot_;
   RoundedQuadratic rounded_;
-  mutable std::shared_ptr<const ExactQuadratic> exact_;  // once it was needed
+  ExactOnce exact_;
 };
 
 // A time at which a quadratic goes from positive to negative.
