@@ -1,3 +1,6 @@
+# For all of our targets, and nobody who links them: Boost 1.74 warns of headers of its own that it includes.
+add_compile_definitions(BOOST_ALLOW_DEPRECATED_HEADERS)
+
 # kinemesh_room(FOLDER SOURCES names... HEADERS names... KNOWS rooms... USES targets...)
 # A room: the sources FOLDER/NAME.cpp, whose public headers are include/kinemesh/NAME.h. It may include from itself and
 # from the rooms it KNOWS, which come before it; tests/project reads every #include against these lines. It is compiled with

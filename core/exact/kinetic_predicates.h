@@ -60,7 +60,9 @@ class ExactOnce {
   ~ExactOnce() {
     if (get()) destroy();
   }
-  const ExactQuadratic* get() const { return kept_.load(std::memory_order_acquire); }  // null if not yet needed
+  const ExactQuadratic* get() const {
+    return kept_.load(std::memory_order_acquire);
+  }                                                          // null if not yet needed
   const ExactQuadratic& keep(ExactQuadratic&& fresh) const;  // the first that came
 
  private:

@@ -157,7 +157,8 @@ std::vector<int> MeshBuilder::order_on_curve(std::span<const Point> points) cons
 void MeshBuilder::check_order(const std::vector<int>& order, std::size_t n) const {
   std::vector<char> is_there(n, false);
   for (const int i : order) {
-    if (i < 0 || i >= static_cast<int>(n) || is_there[i]) throw InputError("the order of the vertices is none");
+    if (i < 0 || i >= static_cast<int>(n) || is_there[i])
+      throw InputError("the order of the vertices is none");
     is_there[i] = true;
   }
   if (order.size() != n) throw InputError("the order of the vertices leaves some out");

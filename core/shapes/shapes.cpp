@@ -34,7 +34,8 @@ const ShapeInfo& info(std::string_view name) {
 void require_vertices(std::string_view shape, int vertices, int minimum) {
   constexpr int most = most_items / 2;  // a vertex brings two faces
   if (vertices >= minimum && vertices <= most) return;
-  const std::string expected = vertices < minimum ? "at least " + std::to_string(minimum) : "at most " + std::to_string(most);
+  const std::string expected =
+      vertices < minimum ? "at least " + std::to_string(minimum) : "at most " + std::to_string(most);
   throw InputError(std::string(shape) + ": " + std::to_string(vertices) + " vertices, expected " + expected);
 }
 

@@ -12,7 +12,8 @@ namespace kinemesh::cli {
 // What the process returns; a contract.
 enum ExitCode : int {
   done = 0,
-  not_valid = 1,  // the mesh is not valid; no valid mesh exists; or the run had to stop, be it for a full disk
+  not_valid =
+      1,  // the mesh is not valid; no valid mesh exists; or the run had to stop, be it for a full disk
   bad_input = 2,  // a file or the command line is wrong; nothing was written
   lacking = 3,    // memory has run out; or the machine lacks what a command other than run takes
   internal = 4,   // a mistake of kinemesh

@@ -71,7 +71,8 @@ std::optional<Resumption> resumption_of(const Scenario& scenario, const std::fil
 // What a failure that ends a run is called.
 std::string reason_of(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error)) return "out of memory";
-  return (dynamic_cast<const std::logic_error*>(&error) ? "internal error: " : "") + std::string(error.what());
+  return (dynamic_cast<const std::logic_error*>(&error) ? "internal error: " : "") +
+         std::string(error.what());
 }
 
 StopCause cause_of(const std::exception& error) {

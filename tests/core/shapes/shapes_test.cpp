@@ -295,7 +295,8 @@ TEST(Shapes, are_known_by_name) {
 
 // And before any memory is asked for.
 TEST(Shapes, are_no_larger_than_numbers_go) {
-  for (const auto& [nx, ny] : {std::pair(50000, 50000), {1, 1 << 28}, {2147483647, 2147483647}, {1 << 14, 1 << 13}}) {
+  for (const auto& [nx, ny] :
+       {std::pair(50000, 50000), {1, 1 << 28}, {2147483647, 2147483647}, {1 << 14, 1 << 13}}) {
     try {
       make_grid(nx, ny);
       ADD_FAILURE() << nx << " by " << ny << " cells are accepted";

@@ -190,8 +190,8 @@ RunSummary stopped_by(const std::filesystem::path& folder, const std::string& na
     return true;
   }();
   (void)is_registered;
-  const auto scenario = parse_scenario("[mesh]\nshape = 'square'\nvertices = 60\n[[motion]]\nfield = '" + name +
-                                           "'\n[time]\ndt = 0.1\nsteps = 9\n",
+  const auto scenario = parse_scenario("[mesh]\nshape = 'square'\nvertices = 60\n[[motion]]\nfield = '" +
+                                           name + "'\n[time]\ndt = 0.1\nsteps = 9\n",
                                        (folder / "s.toml").string());
   RunObserver silent;
   RunOptions options;
