@@ -181,8 +181,8 @@ kinemesh_step c_record(const StepRecord& record) {
           .min_area = record.min_area};
 }
 
-// step_to(end time), dt after all steps before. The lengths of steps are added up as if without rounding (Knuth's
-// two-sum), so that two of dt / 2 end when one of dt does.
+// step_to(end time), dt after all steps before. The lengths of steps are added up as if without rounding
+// (Knuth's two-sum), so that two of dt / 2 end when one of dt does.
 template <class StepTo>
 void advance(kinemesh_stepper& stepper, double dt, kinemesh_step* record, const StepTo& step_to) {
   const double time = stepper.stepper.time(), added = stepper.time_rest + dt, end = time + added;

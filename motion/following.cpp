@@ -10,8 +10,8 @@ namespace {
 
 constexpr int grain = 8192;  // vertices that are worth a task
 
-// Vertices of a line from one that is held to the next, both included; positions in line.vertices(). Over the end of
-// a closed line it goes on with the first ones.
+// Vertices of a line from one that is held to the next, both included; positions in line.vertices(). Over the
+// end of a closed line it goes on with the first ones.
 struct Stretch {
   std::size_t begin, length;
 };

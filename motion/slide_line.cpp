@@ -21,7 +21,8 @@ double cross(const Point& a, const Point& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-// Neighbours along the edges, of each vertex; in the order of vertices, so that lines do not depend on that of edges.
+// Neighbours along the edges, of each vertex; in the order of vertices, so that lines do not depend on that
+// of edges.
 using Neighbours = std::map<int, std::set<int>>;
 
 Neighbours neighbours_in(const Mesh& mesh, const std::vector<Edge>& edges) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the pictures of the documentation with the program. Pictures depend a little on the fonts of the machine. Needs
-# ImageMagick (Debian's imagemagick), which nothing else here does.
+# Makes the pictures of the documentation with the program. Pictures depend a little on the fonts of the
+# machine. Needs ImageMagick (Debian's imagemagick), which nothing else here does.
 # scripts/figures.sh [PRESET]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -56,7 +56,8 @@ animation passing "$(seq 2 2 50)" gallery_passing.gif --width 420
 animation tank "$(seq 2 2 50)" gallery_tank.gif --width 420
 animation flap "$(seq 4 4 100)" gallery_flap.gif --width 420
 
-# notion EXAMPLE NAME STEP TITLE "ARGUMENTS OF draw" [ARGUMENTS OF run]: of the example of that number in docs/scenarios.md
+# notion EXAMPLE NAME STEP TITLE "ARGUMENTS OF draw" [ARGUMENTS OF run]: of the example of that number in
+# docs/scenarios.md
 notion() {
   awk -v n="$1" '/^```toml/ { k++; on = (k == n); next } /^```/ { on = 0 } on' docs/scenarios.md >"$work/example.toml"
   [[ $* == *'quality="none"'* ]] && sed -i '/^angle/d' "$work/example.toml"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what kinemesh needs to be built, run and tested on Debian 12, and nothing else. Needs neither network nor
-# rights where everything is already there.
+# Installs what kinemesh needs to be built, run and tested on Debian 12, and nothing else. Needs neither
+# network nor rights where everything is already there.
 set -euo pipefail
 
 build=(

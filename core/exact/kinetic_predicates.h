@@ -25,9 +25,9 @@ struct RoundedQuadratic {
 
 // Of u x v, where u and v go from u0, v0 to u1, v1, themselves differences of exact points. A difference is
 // right within a factor 1 +- u, u = 2^-53, a product of two within 3u + O(u^2), each coefficient within 6u of
-// the sum of its products' magnitudes; weights and sums of a value take 6u more: 16u has room for rounding the
-// bound. What underflows is off by 2^-1074. Overflow makes bound or value infinite or NaN, so that comparisons
-// fail.
+// the sum of its products' magnitudes; weights and sums of a value take 6u more: 16u has room for rounding
+// the bound. What underflows is off by 2^-1074. Overflow makes bound or value infinite or NaN, so that
+// comparisons fail.
 inline RoundedQuadratic rounded_product(const Point& u0, const Point& u1, const Point& v0, const Point& v1) {
   const double s0 = u0.x * v0.y, s1 = u0.y * v0.x, e0 = u1.x * v1.y, e1 = u1.y * v1.x;
   const double m0 = u0.x * v1.y, m1 = u0.y * v1.x, m2 = u1.x * v0.y, m3 = u1.y * v0.x;
@@ -44,8 +44,8 @@ inline bool is_surely_positive(const RoundedQuadratic& q) {
 class CollapseTime;
 struct ExactQuadratic;
 
-// A quadratic in integers that is worked out once it is needed, which is hardly ever. Several threads may need
-// it at once: one is kept. A copy has its own.
+// A quadratic in integers that is worked out once it is needed, which is hardly ever. Several threads may
+// need it at once: one is kept. A copy has its own.
 class ExactOnce {
  public:
   ExactOnce() = default;
@@ -72,8 +72,8 @@ class ExactOnce {
   mutable std::atomic<const ExactQuadratic*> kept_ = nullptr;
 };
 
-// A product of two vectors that change linearly, as a function of time. Constant members may be called by several
-// threads at once.
+// A product of two vectors that change linearly, as a function of time. Constant members may be called by
+// several threads at once.
 class KineticQuadratic {
  public:
   static KineticQuadratic area(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c);  // twice

@@ -374,8 +374,8 @@ void MeshBuilder::constrain_markers() {
   }
 }
 
-// Turns about both ends at the same time until the first one has come around: summed over the edges of a planar
-// graph this is in proportion to their number, however many meet in a vertex [Chiba 1985].
+// Turns about both ends at the same time until the first one has come around: summed over the edges of a
+// planar graph this is in proportion to their number, however many meet in a vertex [Chiba 1985].
 int MeshBuilder::find_edge(int user_a, int user_b) const {
   const int n = data_.n_vertices();
   if (user_a < 0 || user_a >= n || user_b < 0 || user_b >= n) return none;

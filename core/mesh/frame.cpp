@@ -36,8 +36,8 @@ Box domain_box(const Mesh& mesh) {
   return box;
 }
 
-// A step that is longer than the frame is deep takes the frame with it. Places that are not finite, which nothing
-// reaches, are left to who looks for them.
+// A step that is longer than the frame is deep takes the frame with it. Places that are not finite, which
+// nothing reaches, are left to who looks for them.
 void enlarge(const Mesh& mesh, std::span<Point> next) {
   Box box = nowhere;
   for (const auto& constraint : mesh.constraints())

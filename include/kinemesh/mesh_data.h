@@ -1,5 +1,6 @@
-// A triangulation as plain arrays in the user's numbering: what a file holds, what a solver hands over, and what comes
-// back. No invariant but the index ranges; kinemesh/mesh.h is the structure that is kept consistent.
+// A triangulation as plain arrays in the user's numbering: what a file holds, what a solver hands over, and
+// what comes back. No invariant but the index ranges; kinemesh/mesh.h is the structure that is kept
+// consistent.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,8 @@ struct Marker {
   std::vector<Edge> edges;
 };
 
-// Of vertices, and of faces with their padding: a word of the mesh holds twice a side's number 4 f + k, and one more.
+// Of vertices, and of faces with their padding: a word of the mesh holds twice a side's number 4 f + k, and
+// one more.
 inline constexpr int most_items = (1 << 28) - 1;
 
 struct MeshData {

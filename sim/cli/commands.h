@@ -19,8 +19,8 @@ enum ExitCode : int {
   internal = 4,   // a mistake of kinemesh
 };
 
-// Returns the exit code. Errors are exceptions: InputError for bad input, before anything is written; ResourceError
-// and bad_alloc for what the machine lacks; others are internal.
+// Returns the exit code. Errors are exceptions: InputError for bad input, before anything is written;
+// ResourceError and bad_alloc for what the machine lacks; others are internal.
 using Action = std::function<int()>;
 
 void add_list(CLI::App& program, Action& action);

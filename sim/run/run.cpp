@@ -141,8 +141,8 @@ class Runner {
   }
 
  private:
-  // Of a run in a folder that was empty, or another run's: that makes way. From here on the folder holds no run that
-  // is done, and each file that is there at any moment is listed.
+  // Of a run in a folder that was empty, or another run's: that makes way. From here on the folder holds no
+  // run that is done, and each file that is there at any moment is listed.
   static RunJson started(const Scenario& scenario, const RunOptions& options, const RunPlan& plan) {
     const auto& directory = plan.directory;
     auto files = files_of_run(directory);
@@ -206,7 +206,8 @@ class Runner {
            true);
   }
 
-  // Its row stays in the log only behind that of the next accepted step: on resuming, the step is tried again.
+  // Its row stays in the log only behind that of the next accepted step: on resuming, the step is tried
+  // again.
   void reject(const StepOutcome& outcome, double end_time) {
     const bool has_half = steps_.reject();
     summary_.rejected = steps_.state().rejected;

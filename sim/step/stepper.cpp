@@ -255,8 +255,8 @@ void Stepper::measure(StepOutcome& outcome) {
   record.measure_ms = clock.milliseconds();
 }
 
-// Cannot fail, and is undone by observers only. The initial mesh may have any shape, so the first step looks at
-// all of it; next_ holds the positions before the step.
+// Cannot fail, and is undone by observers only. The initial mesh may have any shape, so the first step looks
+// at all of it; next_ holds the positions before the step.
 void Stepper::improve(RepairRecord& record) {
   const Stopwatch clock;
   const auto before = step_ == 0 ? std::span<const Point>() : std::span<const Point>(next_);

@@ -130,7 +130,8 @@ static void moves_a_border_and_what_is_inside_follows(void) {
   kinemesh_stepper_destroy(stepper);
 }
 
-/* Around a hole of radius 1, up to radius 3: rings of vertices, those of the hole first; markers hole and rim. */
+/* Around a hole of radius 1, up to radius 3: rings of vertices, those of the hole first; markers hole and
+ * rim. */
 enum { around = 16, rings = 5, n_ring = around * rings, n_ring_faces = 2 * around * (rings - 1) };
 
 static kinemesh_mesh* ring(void) {
@@ -334,8 +335,8 @@ static void leaves_everything_as_it_was_when_it_fails(void) {
   kinemesh_stepper_destroy(stepper);
 }
 
-/* Vertex 4 beyond a side of the square it is the middle of: there is a mesh only if it moves, or flips do not find
- * one where it is. */
+/* Vertex 4 beyond a side of the square it is the middle of: there is a mesh only if it moves, or flips do not
+ * find one where it is. */
 static void tells_stuck_from_impossible(void) {
   static const double xy[] = {0, 0, 2, 0, 2, 2, 0, 2, 1, -1}, other[] = {0, 0, 2, 0, 2, 2, 0, 2, 1, 1};
   static const int32_t faces[] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};

@@ -27,7 +27,8 @@ STRATEGIES = ("global", "local", "remesh", "kinetic", "auto", "flips", "optimize
 QUALITIES = ("none", "delaunay", "smooth", "angles")
 VERTICES, STEPS = 500, 6
 
-# The C library and the linear algebra choose among functions by the processor they run on; these exist on all.
+# The C library and the linear algebra choose among functions by the processor they run on; these exist on
+# all.
 sys.path.insert(0, str(HERE.parent))
 from same_everywhere import SAME_EVERYWHERE  # noqa: E402
 

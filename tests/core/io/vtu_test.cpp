@@ -250,8 +250,8 @@ std::size_t data_of(const std::string& text) {
   return text.find('_', text.find(tag_of_data) + tag_of_data.size()) + 1;
 }
 
-// What VTK reads before it knows of the data: the block with the tag's end, and the next. Markers of all lengths
-// bring that end to every place in a block.
+// What VTK reads before it knows of the data: the block with the tag's end, and the next. Markers of all
+// lengths bring that end to every place in a block.
 TEST(Vtu, NoDataComeInTheBlocksThatVtkMayTakeForXml) {
   MeshData mesh = square();
   mesh.markers = {{"", {{0, 1}}}};
