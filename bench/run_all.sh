@@ -56,7 +56,8 @@ table() {
     cp "$work/$name/bench.csv" "$results/$name.csv"
     [[ -e "$work/$name/bench_bound.csv" ]] && cp "$work/$name/bench_bound.csv" "$results/${name}_bound.csv"
     for plot in sweep $([[ $name == noise ]] && echo sizes explored bound); do
-      [[ -e "$work/$name/plots/$plot.svg" ]] && cp "$work/$name/plots/$plot.svg" "$images/bench_${name}_$plot.svg"
+      [[ -e "$work/$name/plots/$plot.svg" ]] &&
+        cp "$work/$name/plots/$plot.svg" "$images/bench_${name}_$plot.svg"
     done
   else
     failed+=("table $name")

@@ -75,8 +75,8 @@ TEST(Vtu, OtherLabelsAreLeftOutWithANote) {
 TEST(Vtu, Quadrilaterals) {
   File file;
   file.piece = "NumberOfPoints=\"4\" NumberOfCells=\"1\"";
-  file.points =
-      R"(<DataArray type="Float32" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 1 1 0 0 1 0</DataArray>)";
+  file.points = R"(<DataArray type="Float32" NumberOfComponents="3" format="ascii">)"
+                "0 0 0 1 0 0 1 1 0 0 1 0</DataArray>";
   file.connectivity = R"(<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>)";
   file.offsets = R"(<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>)";
   file.types = R"(<DataArray type="UInt8" Name="types" format="ascii">9</DataArray>)";
