@@ -36,15 +36,14 @@ Box domain_box(const Mesh& mesh) {
   return box;
 }
 
-// A step that is longer than the frame is deep takes the frame with it. Places that are not finite, which
-// nothing reaches, are left to who looks for them.
+// A step that is longer than the frame is deep takes the frame with it, be it to where no numbers go.
 void enlarge(const Mesh& mesh, std::span<Point> next) {
   Box box = nowhere;
   for (const auto& constraint : mesh.constraints())
     if (constraint.is_border()) box = hull_of(box, next[constraint.from]);
   const Point low = next[mesh.frame()[0]], high = next[mesh.frame()[2]];
   const bool is_inside = low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y;
-  if (is_inside || !std::isfinite(diagonal(box))) return;
+  if (is_inside) return;
   const auto fresh = rectangle(box, mesh.frame_margin());
   for (int i = 0; i < 4; ++i) next[mesh.frame()[i]] = fresh[i];
 }
