@@ -335,8 +335,8 @@ static void leaves_everything_as_it_was_when_it_fails(void) {
   kinemesh_stepper_destroy(stepper);
 }
 
-/* The triangle 4 5 6 turned inside out, its sides to be kept: no edge may flip, no vertex move, but there is a
- * mesh. */
+/* The triangle 4 5 6 turned inside out, its sides to be kept: no edge may flip, no vertex move, but there is
+ * a mesh. */
 static kinemesh_mesh* square_with_lines(const double* xy) {
   static const int32_t lines[] = {4, 5, 5, 6, 6, 4};
   kinemesh_mesh* mesh = NULL;

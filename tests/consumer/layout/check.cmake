@@ -1,4 +1,5 @@
-# cmake -DBUILD=... -P check.cmake: where the project configured in BUILD puts headers, and what users are told.
+# cmake -DBUILD=... -P check.cmake: where the project configured in BUILD puts headers, and what users are
+# told.
 file(GLOB_RECURSE exported ${BUILD}/CMakeFiles/Export/*/kinemesh-targets.cmake)
 file(READ "${exported}" targets)
 file(READ ${BUILD}/cmake_install.cmake rules)
