@@ -24,9 +24,9 @@ std::string exact_text(double value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-// Every defect tells the time; what moves vertices out of this world tells it itself.
+// Every defect tells the time; what moves vertices, but not the frame, out of this world tells it itself.
 void add_time(Defect& defect, double time) {
-  if (defect.kind == DefectKind::NonFinitePosition) return;
+  if (defect.kind == DefectKind::NonFinitePosition && defect.vertices.front() != none) return;
   if (!defect.detail.empty()) defect.detail += ", ";
   defect.detail += "at time " + exact_text(time);
 }
