@@ -120,7 +120,7 @@ TEST_F(NoThreads, LittleMemoryIsAnErrorNoCrash) {
 
 // A run, too, that has begun: this is not the code of a step without valid mesh.
 TEST_F(NoThreads, LittleMemoryInARunIsNoInvalidMesh) {
-  for (const rlim_t megabytes : {60, 70, 80, 100, 120}) {
+  for (const rlim_t megabytes : {88, 96, 104, 112, 120}) {
     const Result result = run_limited(megabytes, {"run", "s.toml", "-o", "little", "-q", "--force"});
     SCOPED_TRACE(std::to_string(megabytes) + " MiB: " + result.err);
     if (result.code == 127) continue;
