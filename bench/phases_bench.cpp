@@ -1,5 +1,5 @@
-// The phases of a repair by themselves: the walk of `global`, one exploration of `local` after the other, re-meshing,
-// splicing. An item is a face of a region.
+// The phases of a repair by themselves: the walk of `global`, one exploration of `local` after the other,
+// re-meshing, splicing. An item is a face of a region.
 #include <benchmark/benchmark.h>
 
 #include <memory>

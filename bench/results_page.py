@@ -1,4 +1,5 @@
-"""The page of results: results_page.py RESULTS IMAGES PAGE.md, from what bench/run_all.sh has left in the two folders."""
+"""The page of results: results_page.py RESULTS IMAGES PAGE.md, from what bench/run_all.sh has left in the two
+folders."""
 
 import csv
 import os
@@ -8,16 +9,19 @@ import sys
 from pathlib import Path
 
 # In the order of the table.
-SUBJECTS = "steps detection regions fixed-tangle explored local-growth threads interior angles memory huge file".split()
+SUBJECTS = ("steps detection regions fixed-tangle explored local-growth threads interior angles memory huge "
+            "file").split()
 
 
 def machine():
     cpu = next(
-        (line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if "model name" in line),
+        (line.split(":")[1].strip()
+         for line in Path("/proc/cpuinfo").read_text().splitlines() if "model name" in line),
         platform.machine(),
     )
     memory = int(Path("/proc/meminfo").read_text().split()[1]) / 2**20
-    compiler = subprocess.run(["g++", "--version"], capture_output=True, text=True, check=False).stdout.split("\n")[0]
+    told = subprocess.run(["g++", "--version"], capture_output=True, text=True, check=False).stdout
+    compiler = told.split("\n")[0]
     return f"{cpu}, {os.cpu_count()} cores, {memory:.0f} GiB; {compiler}"
 
 
@@ -76,7 +80,8 @@ def micro(results):
 
 def main():
     results, images, page = map(Path, sys.argv[1:4])
-    lines = ["# Results\n", "Made by `bench/run_all.sh`; what is measured, and how: [performance.md](performance.md).\n"]
+    lines = ["# Results\n"]
+    lines += ["Made by `bench/run_all.sh`; what is measured, and how: [performance.md](performance.md).\n"]
     lines += [f"Machine: {machine()}.\n"]
     lines += [*aims(results), *tables(results, images, page), *micro(results)]
     page.write_text("\n".join(lines).rstrip() + "\n")

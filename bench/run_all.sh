@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes every table and plot of docs/performance.md anew, in less than half an hour on a machine with two quiet cores:
-# CSV and tables in bench/results, plots in docs/images, all together in docs/performance_results.md.
+# Makes every table and plot of docs/performance.md anew, in less than half an hour on a machine with two
+# quiet cores: CSV and tables in bench/results, plots in docs/images, all together in
+# docs/performance_results.md.
 #
 #   bench/run_all.sh            all but the largest mesh
 #   bench/run_all.sh --huge     only the largest mesh: 5 10^7 vertices in 16 GiB, some ten minutes more
@@ -55,7 +56,8 @@ table() {
     cp "$work/$name/bench.csv" "$results/$name.csv"
     [[ -e "$work/$name/bench_bound.csv" ]] && cp "$work/$name/bench_bound.csv" "$results/${name}_bound.csv"
     for plot in sweep $([[ $name == noise ]] && echo sizes explored bound); do
-      [[ -e "$work/$name/plots/$plot.svg" ]] && cp "$work/$name/plots/$plot.svg" "$images/bench_${name}_$plot.svg"
+      [[ -e "$work/$name/plots/$plot.svg" ]] &&
+        cp "$work/$name/plots/$plot.svg" "$images/bench_${name}_$plot.svg"
     done
   else
     failed+=("table $name")

@@ -18,6 +18,7 @@
 #include "kinemesh/stepper.h"
 #include "kinemesh/validate.h"
 #include "sim/scenario/setup.h"
+#include "untangle/walk/stuck.h"
 
 struct kinemesh_mesh {
   kinemesh::MeshData data;
@@ -39,6 +40,10 @@ static_assert(sizeof(Point) == 2 * sizeof(double) && sizeof(Triangle) == 3 * siz
 thread_local std::string last_error;
 
 class NoValidMesh : public std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+class Stuck : public std::runtime_error {
   using runtime_error::runtime_error;
 };
 
@@ -64,6 +69,8 @@ kinemesh_status guarded(const Work& work) noexcept {
     return KINEMESH_OK;
   } catch (const NoValidMesh& error) {
     return fail(KINEMESH_NO_VALID_MESH, error.what());
+  } catch (const Stuck& error) {
+    return fail(KINEMESH_STUCK, error.what());
   } catch (const NoEmbedding& error) {
     return fail(KINEMESH_NO_VALID_MESH, error.what());
   } catch (const InputError& error) {
@@ -79,6 +86,13 @@ kinemesh_status guarded(const Work& work) noexcept {
   } catch (...) {
     return fail(KINEMESH_BUG, "an unknown exception");
   }
+}
+
+// Of a step or a repair that has failed.
+[[noreturn]] void refuse(const Defect& defect) {
+  if (defect.kind == DefectKind::NonFinitePosition) throw InputError(defect.message());
+  if (is_stuck(defect)) throw Stuck(defect.message());
+  throw NoValidMesh(defect.message());
 }
 
 template <class T>
@@ -167,14 +181,14 @@ kinemesh_step c_record(const StepRecord& record) {
           .min_area = record.min_area};
 }
 
-// step_to(end time), dt after all steps before. The lengths of steps are added up as if without rounding (Knuth's
-// two-sum), so that two of dt / 2 end when one of dt does.
+// step_to(end time), dt after all steps before. The lengths of steps are added up as if without rounding
+// (Knuth's two-sum), so that two of dt / 2 end when one of dt does.
 template <class StepTo>
 void advance(kinemesh_stepper& stepper, double dt, kinemesh_step* record, const StepTo& step_to) {
   const double time = stepper.stepper.time(), added = stepper.time_rest + dt, end = time + added;
   const double added_there = end - time;
   const StepOutcome outcome = step_to(dt < 0.0 ? std::numeric_limits<double>::quiet_NaN() : end);
-  if (!outcome) throw NoValidMesh(outcome.defect->message());
+  if (!outcome) refuse(*outcome.defect);
   stepper.time_rest = (time - (end - added_there)) + (added - added_there);
   if (!record) return;
   *record = c_record(outcome.record);
@@ -253,6 +267,8 @@ kinemesh_status kinemesh_mesh_create(int32_t n_vertices, const double* xy, int32
   return guarded([&] {
     auto& result = cleared(mesh, "mesh");
     const auto vertices = size(n_vertices, "n_vertices"), faces = size(n_faces, "n_faces");
+    check_size(vertices, "vertices");
+    check_size(faces, "faces");
     auto made = std::make_unique<kinemesh_mesh>();
     made->data.points = points(required(xy, "xy"), vertices);
     made->data.triangles = triangles_of(required(triangles, "triangles"), faces);
@@ -294,7 +310,7 @@ kinemesh_status kinemesh_mesh_untangle(kinemesh_mesh* mesh, const char* strategy
   return guarded([&] {
     Mesh work = build_mesh(required(mesh, "mesh")->data);
     const auto outcome = make_strategy(strategy ? strategy : "global")->repair(work, {});
-    if (!outcome) throw NoValidMesh(outcome.defect->message());
+    if (!outcome) refuse(*outcome.defect);
     mesh->data = work.domain();
   });
 }

@@ -1,5 +1,6 @@
-# Installs the program, the libraries and their headers, and exports the libraries as kinemesh::core, kinemesh::motion,
-# kinemesh::untangle, kinemesh::sim, kinemesh::kinemesh for all of them, and kinemesh::c, the C interface.
+# Installs the program, the libraries and their headers, and exports the libraries as kinemesh::core,
+# kinemesh::motion, kinemesh::untangle, kinemesh::sim, kinemesh::kinemesh for all of them, and kinemesh::c,
+# the C interface.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 

@@ -1,7 +1,10 @@
+# For all of our targets, and nobody who links them: Boost 1.74 warns of headers of its own that it includes.
+add_compile_definitions(BOOST_ALLOW_DEPRECATED_HEADERS)
+
 # kinemesh_room(FOLDER SOURCES names... HEADERS names... KNOWS rooms... USES targets...)
-# A room: the sources FOLDER/NAME.cpp, whose public headers are include/kinemesh/NAME.h. It may include from itself and
-# from the rooms it KNOWS, which come before it; tests/project reads every #include against these lines. It is compiled with
-# what it USES of others.
+# A room: the sources FOLDER/NAME.cpp, whose public headers are include/kinemesh/NAME.h. It may include from
+# itself and from the rooms it KNOWS, which come before it; tests/project reads every #include against these
+# lines. It is compiled with what it USES of others.
 function(kinemesh_room folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;KNOWS;USES" ${ARGN})
   foreach(known ${ARG_KNOWS})
@@ -16,15 +19,16 @@ function(kinemesh_room folder)
   add_library(${room} OBJECT ${ARG_SOURCES})
   set_target_properties(${room} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_include_directories(${room} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
-  # A fused multiply-add rounds once where two products are compared, and orientation(a, b, c) then differs from
-  # orientation(b, c, a): the static filters of core/exact are proved for separate roundings.
+  # A fused multiply-add rounds once where two products are compared, and orientation(a, b, c) then differs
+  # from orientation(b, c, a): the static filters of core/exact are proved for separate roundings.
   target_compile_options(${room} PRIVATE -ffp-contract=off)
   target_link_libraries(${room} PRIVATE OpenMeshCore glm::glm ${ARG_USES})
   set_property(GLOBAL APPEND PROPERTY KINEMESH_ROOMS ${room})
   set_property(GLOBAL APPEND PROPERTY KINEMESH_USES_OF_${room} ${ARG_USES})
 endfunction()
 
-# kinemesh_library(NAME FOLDERS...): the rooms since the last one as a static library kinemesh_NAME, on top of FOLDERS.
+# kinemesh_library(NAME FOLDERS...): the rooms since the last one as a static library kinemesh_NAME, on top of
+# FOLDERS.
 function(kinemesh_library name)
   set(target kinemesh_${name})
   get_property(rooms GLOBAL PROPERTY KINEMESH_ROOMS)

@@ -1,15 +1,18 @@
 """Shows the series of a run as kinemesh's own pictures do: replaced triangles amber, edges drawn.
 
-    pvpython examples/paraview_series.py DIR [OUT.png]    or, in ParaView's Python shell, after setting sys.argv
+    pvpython examples/paraview_series.py DIR [OUT.png]
 
-Without OUT.png the last mesh stays on the screen; with it, every mesh is written: OUT.0000.png, OUT.0001.png, ...
+or, in ParaView's Python shell, after setting sys.argv.
+
+Without OUT.png the last mesh stays on the screen; with it, every mesh is written: OUT.0000.png, OUT.0001.png,
+and so on.
 Where there is no screen: xvfb-run pvpython ... (Debian's packages paraview, python3-paraview, xvfb)."""
 
 import os
 import sys
 
-from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetAnimationScene, GetColorTransferFunction, Interact,
-                             PVDReader, Render, SaveAnimation, Show)
+from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetAnimationScene, GetColorTransferFunction,
+                             Interact, PVDReader, Render, SaveAnimation, Show)
 
 series = PVDReader(FileName=os.path.join(sys.argv[1], "mesh.pvd"))
 view = GetActiveViewOrCreate("RenderView")

@@ -1,5 +1,5 @@
-// A pendulum in a channel: its bob is the cylinder, its pivot on the top wall. The loop integrates the equation of motion
-// and tells the mesh where the bob is; the period is held against the exact one.
+// A pendulum in a channel: its bob is the cylinder, its pivot on the top wall. The loop integrates the
+// equation of motion and tells the mesh where the bob is; the period is held against the exact one.
 //
 //   example_pendulum [OUT.su2]    the mesh where the bob has last turned back
 #include <algorithm>

@@ -2,10 +2,11 @@
 // others, and viscosity passes circulation on between Delaunay neighbours. kinemesh keeps the triangulation
 // Delaunay while the vortices turn around each other; the interaction list follows by what changed.
 //
-// Between neighbours i and j goes nu (cot alpha + cot beta) / 2 (w_j - w_i) per time, where alpha and beta are
-// the angles opposite to their edge, w = circulation / area of the Voronoi cell. In a Delaunay triangulation
-// no such weight is negative, so that vorticity makes no new extremes; circulation is conserved to rounding,
-// and the angular impulse sum G |x|^2 grows by 4 nu sum G per time, as it does in a viscous fluid.
+// Between neighbours i and j goes nu (cot alpha + cot beta) / 2 (w_j - w_i) per time, where alpha and beta
+// are the angles opposite to their edge, w = circulation / area of the Voronoi cell. In a Delaunay
+// triangulation no such weight is negative, so that vorticity makes no new extremes; circulation is conserved
+// to rounding, and the angular impulse sum G |x|^2 grows by 4 nu sum G per time, as it does in a viscous
+// fluid.
 #include <algorithm>
 #include <array>
 #include <cmath>

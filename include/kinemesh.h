@@ -26,11 +26,12 @@ extern "C" {
 typedef enum kinemesh_status {
   KINEMESH_OK = 0,
   KINEMESH_NO_VALID_MESH = 1, /* the domain has none with these positions: borders cross, vertices coincide */
-  KINEMESH_BAD_INPUT = 2,     /* the caller's mistake, or a file's */
+  KINEMESH_BAD_INPUT = 2,     /* the caller's mistake, or a file's; positions that are not finite, too */
   KINEMESH_OUT_OF_MEMORY = 3,
-  KINEMESH_VETOED = 4,      /* an observer returned something else than 0 */
-  KINEMESH_BUG = 5,         /* a mistake of kinemesh; please report it with its message */
-  KINEMESH_NO_RESOURCES = 6 /* a full disk, a limit of files or of their size, a device that fails */
+  KINEMESH_VETOED = 4,       /* an observer returned something else than 0 */
+  KINEMESH_BUG = 5,          /* a mistake of kinemesh; please report it with its message */
+  KINEMESH_NO_RESOURCES = 6, /* a full disk, a limit of files or of their size, a device that fails */
+  KINEMESH_STUCK = 7         /* "flips", "optimize" do not get on: another strategy may find a mesh */
 } kinemesh_status;
 
 /* What went wrong in the last call of this thread that failed, in one line; never NULL. Valid until the next
@@ -45,8 +46,8 @@ KINEMESH_API const char* kinemesh_version(void);
 typedef struct kinemesh_mesh kinemesh_mesh;
 
 /* Copies the arrays. labels: one per triangle, or NULL for all 0. Winding is made consistent, and parts that
- * are clockwise on the whole are turned over, which swaps the last two corners of their faces. The mesh may be
- * tangled. */
+ * are clockwise on the whole are turned over, which swaps the last two corners of their faces. The mesh may
+ * be tangled. */
 KINEMESH_API kinemesh_status kinemesh_mesh_create(int32_t n_vertices, const double* xy, int32_t n_faces,
                                                   const int32_t* triangles, const int32_t* labels,
                                                   kinemesh_mesh** mesh);
@@ -95,11 +96,11 @@ KINEMESH_API kinemesh_status kinemesh_stepper_create(const kinemesh_mesh* mesh,
                                                      const kinemesh_options* options,
                                                      kinemesh_stepper** stepper);
 
-/* For bodies whose motion is known: a stepper, and what moves its mesh. scenario is TOML, the tables [[body]],
- * [[motion]], [interior], [border] and [repair] as docs/scenarios.md has them, with their defaults; files it
- * names are relative to the current folder. Other tables are refused: the mesh is this one, frame as in
- * kinemesh_options, and each step brings its length. The message about a mistake in it begins with its place,
- * "scenario:LINE: ", and names the key. */
+/* For bodies whose motion is known: a stepper, and what moves its mesh. scenario is TOML, the tables
+ * [[body]], [[motion]], [interior], [border] and [repair] as docs/scenarios.md has them, with their defaults;
+ * files it names are relative to the current folder. Other tables are refused: the mesh is this one, frame as
+ * in kinemesh_options, and each step brings its length. The message about a mistake in it begins with its
+ * place, "scenario:LINE: ", and names the key. */
 KINEMESH_API kinemesh_status kinemesh_stepper_create_scenario(const kinemesh_mesh* mesh, const char* scenario,
                                                               double frame, kinemesh_stepper** stepper);
 KINEMESH_API void kinemesh_stepper_destroy(kinemesh_stepper* stepper); /* NULL is fine */
@@ -124,16 +125,16 @@ KINEMESH_API kinemesh_status kinemesh_stepper_step(kinemesh_stepper* stepper, co
                                                    kinemesh_step* record);
 
 /* The border, or some of it, to new places: n different vertices, and where each is to be, in a time dt >= 0.
- * The rest of the border stays, and the interior follows: harmonically, or as a scenario says. Vertices of the
- * interior may be named, too. */
+ * The rest of the border stays, and the interior follows: harmonically, or as a scenario says. Vertices of
+ * the interior may be named, too. */
 KINEMESH_API kinemesh_status kinemesh_stepper_step_border(kinemesh_stepper* stepper, int32_t n,
                                                           const int32_t* vertices, const double* xy,
                                                           double dt, kinemesh_step* record);
 
-/* What the scenario of kinemesh_stepper_create_scenario says is to happen in a time dt >= 0 from now on. Bodies
- * are where it says for the time at the end of the step, to rounding: nothing adds up over the steps, and two
- * of dt / 2 bring a body to the same bits as one of dt. Other steps may come between; bodies then go from there
- * to where they have to be. */
+/* What the scenario of kinemesh_stepper_create_scenario says is to happen in a time dt >= 0 from now on.
+ * Bodies are where it says for the time at the end of the step, to rounding: nothing adds up over the steps,
+ * and two of dt / 2 bring a body to the same bits as one of dt. Other steps may come between; bodies then go
+ * from there to where they have to be. */
 KINEMESH_API kinemesh_status kinemesh_stepper_advance(kinemesh_stepper* stepper, double dt,
                                                       kinemesh_step* record);
 

@@ -31,13 +31,14 @@ struct BorderConditions {
 // How each vertex may move: anywhere, along a line, or not at all.
 //
 // Vertices on no border move freely; so do those of inner markers and of interfaces between labels, which are
-// no border, unless their marker is named. Corners of the frame and fixed vertices of the mesh do not move. Sliding
-// vertices follow the line that their border was at the start (motion/slide_line.h), corners of more than 30 degrees
-// apart, which do not move; nor do vertices where two sliding borders of different directions meet.
+// no border, unless their marker is named. Corners of the frame and fixed vertices of the mesh do not move.
+// Sliding vertices follow the line that their border was at the start (motion/slide_line.h), corners of more
+// than 30 degrees apart, which do not move; nor do vertices where two sliding borders of different directions
+// meet.
 class Freedom {
  public:
-  // mesh: at the start of the run. Throws ParameterError whose key is the marker: not in the mesh; or sliding, but
-  // three or more of its edges meet in a vertex, which it names.
+  // mesh: at the start of the run. Throws ParameterError whose key is the marker: not in the mesh; or
+  // sliding, but three or more of its edges meet in a vertex, which it names.
   Freedom(const Mesh& mesh, const BorderConditions& conditions);
 
   BorderCondition of(int vertex) const { return conditions_[vertex]; }
@@ -55,8 +56,8 @@ class Freedom {
   // Of a sliding vertex: unit vector along its line at x.
   Point tangent(int vertex, const Point& x) const;
 
-  // Where a sliding vertex that has moved from x0 to x1 is on its line: the way along it counts. Straight horizontal
-  // and vertical lines keep x1 bit by bit.
+  // Where a sliding vertex that has moved from x0 to x1 is on its line: the way along it counts. Straight
+  // horizontal and vertical lines keep x1 bit by bit.
   Point on_line(int vertex, const Point& x0, const Point& x1) const;
 
   // Of a vertex on a line: from x to the nearest point of it; and which border that is, `marker "top"`.

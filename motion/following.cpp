@@ -8,8 +8,8 @@
 namespace kinemesh {
 namespace {
 
-// Vertices of a line from one that is held to the next, both included; positions in line.vertices(). Over the end of
-// a closed line it goes on with the first ones.
+// Vertices of a line from one that is held to the next, both included; positions in line.vertices(). Over the
+// end of a closed line it goes on with the first ones.
 struct Stretch {
   std::size_t begin, length;
 };

@@ -17,16 +17,16 @@ struct FollowingState {
   double dt = 0.0;
 };
 
-// Solves for the interior (motion/interior/interior.h) and puts sliding vertices on their lines. A step that is not accepted
-// leaves nothing behind.
+// Solves for the interior (motion/interior/interior.h) and puts sliding vertices on their lines. A step that
+// is not accepted leaves nothing behind.
 class Following {
  public:
   Following(const Mesh& mesh, const InteriorOptions& options, FollowingState state = {});
 
-  // x1: where the motion has the vertices go, border and bodies finally, the interior without what follows; that is
-  // added. Where vertices of a sliding border would overtake one another, those between two that are held are spread
-  // as they were before. Pre: motion.roles() are there; the mesh is at the start of the step. x1 is of no use where
-  // the solution has not converged.
+  // x1: where the motion has the vertices go, border and bodies finally, the interior without what follows;
+  // that is added. Where vertices of a sliding border would overtake one another, those between two that are
+  // held are spread as they were before. Pre: motion.roles() are there; the mesh is at the start of the step.
+  // x1 is of no use where the solution has not converged.
   [[nodiscard]] InteriorSolution follow(const Mesh& mesh, const Motion& motion, const TimeStep& step,
                                         std::span<Point> x1);
 

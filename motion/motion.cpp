@@ -37,8 +37,8 @@ std::vector<std::string> markers_of(const MotionTerm& term) {
   return names;
 }
 
-// A marker that a term or a body names is moving unless `border` says otherwise. Names that are not in the mesh are
-// refused elsewhere, with the term's or the body's number.
+// A marker that a term or a body names is moving unless `border` says otherwise. Names that are not in the
+// mesh are refused elsewhere, with the term's or the body's number.
 BorderConditions completed(const Mesh& mesh, BorderConditions border, const std::vector<MotionTerm>& terms,
                            const std::vector<BodySpec>& bodies) {
   const auto& names = mesh.marker_names();

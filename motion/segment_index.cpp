@@ -1,6 +1,5 @@
 #include "motion/segment_index.h"
 
-#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost 1.74 includes one of its own
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>

@@ -17,7 +17,8 @@ constexpr double straight_within = 1e-9;
 
 constexpr double corner_cosine = 0.8660254037844387;  // of 30 degrees
 
-// Neighbours along the edges, of each vertex; in the order of vertices, so that lines do not depend on that of edges.
+// Neighbours along the edges, of each vertex; in the order of vertices, so that lines do not depend on that
+// of edges.
 using Neighbours = std::map<int, std::set<int>>;
 
 Neighbours neighbours_in(const Mesh& mesh, const std::vector<Edge>& edges) {

@@ -33,16 +33,16 @@ class SlideLine : public Polyline {
   // First and last vertex of an open line with the unit vectors along it there.
   std::vector<std::pair<int, Point>> ends() const;
 
-  // Where something on the line that has moved from x0 to x1 is: as far along it from x0 as the way goes along
-  // the tangent. Horizontal and vertical straight lines give x1, bit by bit.
+  // Where something on the line that has moved from x0 to x1 is: as far along it from x0 as the way goes
+  // along the tangent. Horizontal and vertical straight lines give x1, bit by bit.
   Point moved(const Point& x0, const Point& x1) const;
 
  private:
   std::vector<int> vertices_;
 };
 
-// The lines that edges make up, curved ones the same however the mesh is stored. Throws InputError that names a
-// vertex (the user's number) where more than two meet.
+// The lines that edges make up, curved ones the same however the mesh is stored. Throws InputError that names
+// a vertex (the user's number) where more than two meet.
 std::vector<SlideLine> slide_lines(const Mesh& mesh, const std::vector<Edge>& edges);
 
 }  // namespace kinemesh

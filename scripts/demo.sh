@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and turns an airfoil a full revolution and back in a mesh whose far field stands
-# still. Leaves the results in demo/.
+# Installs what is missing, builds, and turns an airfoil a full revolution and back in a mesh whose far field
+# stands still. Leaves the results in demo/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Two long runs, a turning disc and Brownian motion: every mesh validated, and both once more, killed again and again and
-# gone on with, to the same files.
+# Two long runs, a turning disc and Brownian motion: every mesh validated, and both once more, killed again
+# and again and gone on with, to the same files.
 #   scripts/endurance.sh [STEPS [VERTICES [KILLS]]]    5000, 20000, 20 unless said otherwise
 set -euo pipefail
 cd "$(dirname "$0")/.."

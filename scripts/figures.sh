@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the pictures of the documentation with the program. Pictures depend a little on the fonts of the machine. Needs
-# ImageMagick (Debian's imagemagick), which nothing else here does.
+# Makes the pictures of the documentation with the program. Pictures depend a little on the fonts of the
+# machine. Needs ImageMagick (Debian's imagemagick), which nothing else here does.
 # scripts/figures.sh [PRESET]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,20 +11,21 @@ cmake --build --preset "$preset" --target kinemesh_cli example_make_tangle examp
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 kinemesh() { build/$preset/kinemesh "$@"; }
+undated=(-define png:exclude-chunks=date,time)
 
 for kind in jitter umbilic; do
   seed=$(build/$preset/examples/example_make_tangle $kind "$work/$kind.off")
   # 1: tangles elsewhere remain.
-  kinemesh untangle "$work/$kind.off" -o "$work/out.off" --strategy local --seed "$seed" --report "$work/$kind.json" ||
-    (($? == 1))
+  kinemesh untangle "$work/$kind.off" -o "$work/out.off" --strategy local --seed "$seed" \
+    --report "$work/$kind.json" || (($? == 1))
   kinemesh draw "$work/$kind.off" --region "$work/$kind.json" -o "$work/local_$kind.png"
-  convert "$work/local_$kind.png" -colors 64 -define png:exclude-chunks=date,time PNG8:docs/images/local_$kind.png
+  convert "$work/local_$kind.png" -colors 64 "${undated[@]}" PNG8:docs/images/local_$kind.png
 done
 
 # picture RUN STEP [ARGUMENTS OF draw]
 picture() {
   kinemesh draw "$work/$1" --step "$2" "${@:3}" -o "$work/$1.png" >"$work/log"
-  convert "$work/$1.png" +dither -colors 32 -define png:exclude-chunks=date,time PNG8:docs/images/gallery_$1.png
+  convert "$work/$1.png" +dither -colors 32 "${undated[@]}" PNG8:docs/images/gallery_$1.png
 }
 
 # The colours of `draw` and some between, for all frames.
@@ -36,7 +37,8 @@ animation() {
   for step in $2; do
     kinemesh draw "$work/$1" --step "$step" "${@:4}" -o "$work/frame_$(printf %03d "$step").png" >"$work/log"
   done
-  convert -delay 12 -loop 0 "$work"/frame_*.png +dither -remap "$work/palette.png" -layers optimize "docs/images/$3"
+  convert -delay 12 -loop 0 "$work"/frame_*.png +dither -remap "$work/palette.png" -layers optimize \
+    "docs/images/$3"
   rm "$work"/frame_*.png
 }
 
@@ -56,9 +58,11 @@ animation passing "$(seq 2 2 50)" gallery_passing.gif --width 420
 animation tank "$(seq 2 2 50)" gallery_tank.gif --width 420
 animation flap "$(seq 4 4 100)" gallery_flap.gif --width 420
 
-# notion EXAMPLE NAME STEP TITLE "ARGUMENTS OF draw" [ARGUMENTS OF run]: of the example of that number in docs/scenarios.md
+# notion EXAMPLE NAME STEP TITLE "ARGUMENTS OF draw" [ARGUMENTS OF run]: of the example of that number in
+# docs/scenarios.md
 notion() {
-  awk -v n="$1" '/^```toml/ { k++; on = (k == n); next } /^```/ { on = 0 } on' docs/scenarios.md >"$work/example.toml"
+  awk -v n="$1" '/^```toml/ { k++; on = (k == n); next } /^```/ { on = 0 } on' docs/scenarios.md \
+    >"$work/example.toml"
   [[ $* == *'quality="none"'* ]] && sed -i '/^angle/d' "$work/example.toml"
   kinemesh run "$work/example.toml" -o "$work/example" --force -q --set output.patches=true "${@:6}"
   # shellcheck disable=SC2086
@@ -69,7 +73,7 @@ notion() {
 notions() {
   local files=() name
   for name in "${@:2}"; do files+=("$work/notion_$name.png"); done
-  convert "${files[@]}" +append +dither -colors 32 -define png:exclude-chunks=date,time "PNG8:docs/images/$1.png"
+  convert "${files[@]}" +append +dither -colors 32 "${undated[@]}" "PNG8:docs/images/$1.png"
 }
 
 channel="--zoom=0.2,0,1.8,1 --width 520" small="--set mesh.vertices=700"
@@ -91,5 +95,5 @@ notions scenario_motion motion_start motion
 
 build/$preset/examples/example_pendulum "$work/pendulum.su2"
 kinemesh draw "$work/pendulum.su2" --zoom=0,-0.02,2.4,1.02 -o "$work/pendulum.png"
-convert "$work/pendulum.png" +dither -colors 32 -define png:exclude-chunks=date,time PNG8:docs/images/gallery_pendulum.png
+convert "$work/pendulum.png" +dither -colors 32 "${undated[@]}" PNG8:docs/images/gallery_pendulum.png
 ls -l docs/images

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Feeds the readers of mesh files broken input, under the address and undefined-behaviour sanitizers.
-#   scripts/fuzz_readers.sh [EXECUTIONS [SEED]]    of each reader, a million unless said otherwise; seed 0 is a new one
+#   scripts/fuzz_readers.sh [EXECUTIONS [SEED]]    of each reader, a million by default; seed 0 is a new one
 # What a reader stumbles over is left in build/fuzz/findings; the corpus that grew, in build/fuzz/corpus.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Lets every call of a run that changes a file fail, meet a full disk, or kill the program, one after the other, and goes
-# on from what is left.
+# Lets every call of a run that changes a file fail, meet a full disk, or kill the program, one after the
+# other, and goes on from what is left.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what kinemesh needs to be built, run and tested on Debian 12, and nothing else. Needs neither network nor
-# rights where everything is already there.
+# Installs what kinemesh needs to be built, run and tested on Debian 12, and nothing else. Needs neither
+# network nor rights where everything is already there.
 set -euo pipefail
 
 build=(
@@ -28,6 +28,7 @@ tests=(
   librapidcheck-dev # properties over random cases
   python3-meshio    # reads what we write
   clang libclang-rt-14-dev  # libFuzzer
+  clang-format      # .clang-format is the law
   valgrind          # counts instructions
 )
 
@@ -48,4 +49,5 @@ if ((EUID != 0)); then
 fi
 echo "installing ${missing[*]}"
 "${as_root[@]}" apt-get update -qq
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}"

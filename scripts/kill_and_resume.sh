@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Kills programs at random moments, starts them again, and compares what they leave with what undisturbed ones leave:
-# half of the kills hit runs that are then resumed, the others all commands that write.
+# Kills programs at random moments, starts them again, and compares what they leave with what undisturbed ones
+# leave: half of the kills hit runs that are then resumed, the others all commands that write.
 #   scripts/kill_and_resume.sh [KILLS]    1000 unless said otherwise
 set -euo pipefail
 cd "$(dirname "$0")/.."

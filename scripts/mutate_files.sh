@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Feeds every reader with mutants of its files that know tokens, counts and sections, under the address and
-# undefined-behaviour sanitizers: none may end in anything but an error with file and line, or take much time or memory.
+# undefined-behaviour sanitizers: none may end in anything but an error with file and line, or take much time
+# or memory.
 #   scripts/mutate_files.sh [MUTANTS [FORMAT [FIRST]]]    of every format, 100,000 unless said otherwise
 # Mutants that do are left in build/asan/mutants.
 set -euo pipefail

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs all tests under the address and undefined-behaviour sanitizers, then under the thread sanitizer. Takes long.
-# Arguments go to ctest.
+# Runs all tests under the address and undefined-behaviour sanitizers, then under the thread sanitizer. Takes
+# long. Arguments go to ctest.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# `quality = "delaunay"` for longer than the tests: a rotor against a full re-mesh, and random scenarios against CGAL, at
-# every step.
+# `quality = "delaunay"` for longer than the tests: a rotor against a full re-mesh, and random scenarios
+# against CGAL, at every step.
 #   scripts/sweep_quality.sh [STEPS [SCENARIOS]]    1000 and 1000 unless said otherwise
 set -euo pipefail
 cd "$(dirname "$0")/.."

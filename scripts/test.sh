@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, fuzzes the readers and the repair for a moment, and runs all tests. Arguments go to
-# ctest instead of the fuzzing: scripts/test.sh -R untangle
+# Installs what is missing, builds, fuzzes the readers and the repair for a moment, and runs all tests.
+# Arguments go to ctest instead of the fuzzing: scripts/test.sh -R untangle
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,5 +1,6 @@
-// What the aims of docs/performance.md are measured with. Each subject is a run of its own; ratios are of medians, taken
-// in turn in one process. Everything timed works on meshes that are validated outside what is timed.
+// What the aims of docs/performance.md are measured with. Each subject is a run of its own; ratios are of
+// medians, taken in turn in one process. Everything timed works on meshes that are validated outside what is
+// timed.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
-// Angles made good in a mesh of slivers: step 60 of an airfoil that turns within layers, kept Delaunay until then.
+// Angles made good in a mesh of slivers: step 60 of an airfoil that turns within layers, kept Delaunay until
+// then.
 #include "untangle/quality/angles.h"
 
 #include <fmt/format.h>

@@ -37,8 +37,8 @@ void repair_and_count(const Move& move, const std::string& strategy, Reads& read
   reads.add(outcome.record);
 }
 
-// A bump pushes what is around the middle over what lies ahead of it: the same fold, three sheets deep, whatever the
-// number of vertices.
+// A bump pushes what is around the middle over what lies ahead of it: the same fold, three sheets deep,
+// whatever the number of vertices.
 Point pushed(const Point& p) {
   const double radius = 0.3, way = 0.35;
   const double r = glm::distance(p, Point(0.45, 0.5)) / radius;

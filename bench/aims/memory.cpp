@@ -67,7 +67,8 @@ void report_steps(const std::string& what, int n, const AnyField& field) {
           fmt::format("{:.4g} MiB in all: mesh, motion, stepper, program", peak / 1024.0 / 1024.0)});
 }
 
-// A square of (m + 1)^2 vertices whose inner ones stand a little beside their places, so that little is collinear.
+// A square of (m + 1)^2 vertices whose inner ones stand a little beside their places, so that little is
+// collinear.
 MeshData uneven_grid(int m) {
   MeshData data = make_grid(m, m);
   const Jitter jitter(0.15, 1);

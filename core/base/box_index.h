@@ -1,4 +1,5 @@
-// A spatial index of numbered boxes: Boost's R-tree. For .cpp files and for headers that few include: expensive.
+// A spatial index of numbered boxes: Boost's R-tree. For .cpp files and for headers that few include:
+// expensive.
 #pragma once
 
 #include <boost/geometry/geometries/register/box.hpp>

@@ -21,7 +21,8 @@ namespace {
 
 using Limit = tbb::global_control;
 
-// Where TBB finds no memory for a task, it waits for it for ever. So all it needs is taken where there is plenty.
+// Where TBB finds no memory for a task, it waits for it for ever. So all it needs is taken where there is
+// plenty.
 constexpr std::size_t plenty = std::size_t{8} << 20;  // bytes
 constexpr int tasks_kept = 4;  // for each other thread: as many as loops within loops take
 
@@ -48,9 +49,9 @@ void wait_until(const std::atomic<int>& counter, int n) {
   while (counter < n && std::chrono::steady_clock::now() < end) std::this_thread::yield();
 }
 
-// Makes TBB start threads until there are n, or the system gives no more; returns how many there are. n and the result
-// count the calling thread. One after the other, and by this thread: here a failure is an exception, but the end of the
-// process where one of TBB's own threads starts the next.
+// Makes TBB start threads until there are n, or the system gives no more; returns how many there are. n and
+// the result count the calling thread. One after the other, and by this thread: here a failure is an
+// exception, but the end of the process where one of TBB's own threads starts the next.
 int start_threads(int n) {
   std::latch end(1);
   std::atomic<int> ready{1};
@@ -109,8 +110,8 @@ int threads_for(int parts) {
       std::min({static_cast<std::size_t>(parts), allowed, static_cast<std::size_t>(here)}));
 }
 
-// The parts go in order to whoever asks for the next. The counters say to the thread sanitizer, which does not see into
-// TBB, what is written before what.
+// The parts go in order to whoever asks for the next. The counters say to the thread sanitizer, which does
+// not see into TBB, what is written before what.
 class Loop {
  public:
   Loop(int parts, void (*do_part)(const void*, int), const void* body)
@@ -126,7 +127,8 @@ class Loop {
   }
 
  private:
-  // Waiting threads do no other work, isolated: that of an outer loop would find the part they are in half done.
+  // Waiting threads do no other work, isolated: that of an outer loop would find the part they are in half
+  // done.
   void share(int others) {
     tbb::task_group group;
     for (int i = 0; i < others; ++i) {

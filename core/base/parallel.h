@@ -25,15 +25,16 @@ inline int n_parts(int n, int grain) {
   return std::clamp(n / grain, 1, most_parts);
 }
 
-// Calls do_part(body, part) for each part from 0, each once, in all threads. Where some throw, others may be left out;
-// throws what the first of them in order has thrown. The first call makes the threads that TBB may use, and they stay:
-// TBB itself ends the process where it wants one that cannot be made. Where they cannot, or there is no memory to share
-// the work, the calling thread does it alone.
+// Calls do_part(body, part) for each part from 0, each once, in all threads. Where some throw, others may be
+// left out; throws what the first of them in order has thrown. The first call makes the threads that TBB may
+// use, and they stay: TBB itself ends the process where it wants one that cannot be made. Where they cannot,
+// or there is no memory to share the work, the calling thread does it alone.
 void do_parts(int parts, void (*do_part)(const void* body, int part), const void* body);
 
 // Calls body(part, begin, end), begin to end out of 0 to n, for each part in all threads. The parts depend on
 // n and grain only, so that what is gathered by part and put together in their order does not depend on the
-// number of threads. Takes no memory but what TBB takes for itself. What bodies have written can be read afterwards.
+// number of threads. Takes no memory but what TBB takes for itself. What bodies have written can be read
+// afterwards.
 template <class Body>
 void parallel_parts(int n, int grain, const Body& body) {
   const int parts = n_parts(n, grain);

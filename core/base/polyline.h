@@ -11,8 +11,8 @@ namespace kinemesh {
 // Places are parameters: lengths from the start. Beyond its ends an open line goes on straight.
 class Polyline {
  public:
-  // Closed if the first point comes again as the last. Throws InputError for fewer than two, and for segments of
-  // length 0 or not finite.
+  // Closed if the first point comes again as the last. Throws InputError for fewer than two, and for segments
+  // of length 0 or not finite.
   explicit Polyline(std::vector<Point> points);
 
   std::span<const Point> points() const { return points_; }

@@ -46,8 +46,8 @@ struct PointIn {
 };
 using NumberedSortTraits = CGAL::Spatial_sort_traits_adapter_2<Kernel, PointIn>;
 
-// What CGAL::hilbert_sort does, its four quarters at the same time. CGAL could do that too, but hands its tasks
-// over where the thread sanitizer does not see it.
+// What CGAL::hilbert_sort does, its four quarters at the same time. CGAL could do that too, but hands its
+// tasks over where the thread sanitizer does not see it.
 void sort_along_curve(std::vector<NumberedPoint>& points) {
   using Sort = CGAL::Hilbert_sort_median_2<NumberedSortTraits, CGAL::Sequential_tag>;
   boost::rand48 random;

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace kinemesh {
 
@@ -136,6 +138,21 @@ int sign(double value) {
 
 }  // namespace
 
+ExactOnce::ExactOnce(const ExactOnce& other) {
+  if (const auto* known = other.get()) set(new ExactQuadratic(*known));
+}
+
+void ExactOnce::destroy() noexcept {
+  delete get();
+}
+
+const ExactQuadratic& ExactOnce::keep(ExactQuadratic&& fresh) const {
+  auto mine = std::make_unique<const ExactQuadratic>(std::move(fresh));
+  const ExactQuadratic* first = nullptr;
+  if (kept_.compare_exchange_strong(first, mine.get(), std::memory_order_acq_rel)) return *mine.release();
+  return *first;
+}
+
 KineticQuadratic::KineticQuadratic(const std::array<MovingPoint, 3>& p, bool is_dot)
     : corners_(p), is_dot_(is_dot) {
   Point v0 = p[2].x0 - p[0].x0, v1 = p[2].x1 - p[0].x1;
@@ -155,8 +172,8 @@ KineticQuadratic KineticQuadratic::dot(const MovingPoint& a, const MovingPoint& 
 }
 
 const ExactQuadratic& KineticQuadratic::exact() const {
-  if (!exact_) exact_ = std::make_shared<const ExactQuadratic>(exact_quadratic(corners_, is_dot_));
-  return *exact_;
+  const auto* known = exact_.get();
+  return known ? *known : exact_.keep(exact_quadratic(corners_, is_dot_));
 }
 
 double KineticQuadratic::value_at(double t) const {

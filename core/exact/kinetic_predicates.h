@@ -4,8 +4,8 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "core/exact/moving_area.h"
@@ -26,9 +26,9 @@ struct RoundedQuadratic : MovingArea<double> {
 
 // Of u x v, where u and v go from u0, v0 to u1, v1, themselves differences of exact points. A difference is
 // right within a factor 1 +- u, u = 2^-53, a product of two within 3u + O(u^2), each coefficient within 6u of
-// the sum of its products' magnitudes; weights and sums of a value take 6u more: 16u has room for rounding the
-// bound. What underflows is off by 2^-1074. Overflow makes bound or value infinite or NaN, so that comparisons
-// fail.
+// the sum of its products' magnitudes; weights and sums of a value take 6u more: 16u has room for rounding
+// the bound. What underflows is off by 2^-1074. Overflow makes bound or value infinite or NaN, so that
+// comparisons fail.
 inline RoundedQuadratic rounded_product(const Point& u0, const Point& u1, const Point& v0, const Point& v1) {
   const auto size = [](const Point& u, const Point& v) { return std::abs(u.x * v.y) + std::abs(u.y * v.x); };
   const double sum = size(u0, v0) + size(u1, v1) + size(u0, v1) + size(u1, v0);
@@ -43,7 +43,36 @@ inline bool is_surely_positive(const RoundedQuadratic& q) {
 class CollapseTime;
 struct ExactQuadratic;
 
-// A product of two vectors that change linearly, as a function of time.
+// A quadratic in integers that is worked out once it is needed, which is hardly ever. Several threads may
+// need it at once: one is kept. A copy has its own.
+class ExactOnce {
+ public:
+  ExactOnce() = default;
+  ExactOnce(const ExactOnce& other);
+  ExactOnce(ExactOnce&& other) noexcept : kept_(other.get()) { other.set(nullptr); }
+  ExactOnce& operator=(ExactOnce other) noexcept {
+    const auto* mine = get();
+    set(other.get());
+    other.set(mine);
+    return *this;
+  }
+  ~ExactOnce() {
+    if (get()) destroy();
+  }
+  const ExactQuadratic* get() const {
+    return kept_.load(std::memory_order_acquire);
+  }                                                          // null if not yet needed
+  const ExactQuadratic& keep(ExactQuadratic&& fresh) const;  // the first that came
+
+ private:
+  void set(const ExactQuadratic* known) { kept_.store(known, std::memory_order_relaxed); }  // alone with it
+  void destroy() noexcept;
+
+  mutable std::atomic<const ExactQuadratic*> kept_ = nullptr;
+};
+
+// A product of two vectors that change linearly, as a function of time. Constant members may be called by
+// several threads at once.
 class KineticQuadratic {
  public:
   static KineticQuadratic area(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c);  // twice
@@ -70,7 +99,7 @@ class KineticQuadratic {
   std::array<MovingPoint, 3> corners_;
   bool is_dot_;
   RoundedQuadratic rounded_;
-  mutable std::shared_ptr<const ExactQuadratic> exact_;  // once it was needed
+  ExactOnce exact_;
 };
 
 // A time at which a quadratic goes from positive to negative.

@@ -5,10 +5,10 @@ namespace kinemesh {
 
 // With u = 2^-53 each difference and product is right within a factor 1 +- u, a product of differences l, r
 // therefore within 3u + O(u^2) of |l|, |r|, and det = l - r within u of itself; a product that underflows is
-// off by at most 2^-1075 more. So |det - exact| <= u |det| + (3u + O(u^2)) (|l| + |r|) + 2^-1073, and the sign
-// is right once |det| exceeds 4u (|l| + |r|) + 2^-1022 [Shewchuk 1997, §4.3, with room for rounding the bound
-// itself]. Overflow makes the bound infinite or either side NaN: the comparison fails and the exact way is
-// taken.
+// off by at most 2^-1075 more. So |det - exact| <= u |det| + (3u + O(u^2)) (|l| + |r|) + 2^-1073, and the
+// sign is right once |det| exceeds 4u (|l| + |r|) + 2^-1022 [Shewchuk 1997, §4.3, with room for rounding the
+// bound itself]. Overflow makes the bound infinite or either side NaN: the comparison fails and the exact way
+// is taken.
 inline constexpr double orientation_error = 4.0 * 0x1p-53;
 inline constexpr double underflow_error = 0x1p-1022;
 

@@ -72,8 +72,9 @@ RoundedSide side_at(const MovingFace& f, int corner, double s) {
 }
 
 // Whether u x v + v' x u' exceeds its rounding error. Each side is within 4u + O(u^2) of its magnitude, a
-// product within 9u, the sum of two crosses within 11u of the sum of magnitudes: 16u has room for rounding the
-// bound. What underflows is off by 2^-1074, times the other factor's magnitude. Overflow fails the comparison.
+// product within 9u, the sum of two crosses within 11u of the sum of magnitudes: 16u has room for rounding
+// the bound. What underflows is off by 2^-1074, times the other factor's magnitude. Overflow fails the
+// comparison.
 bool is_surely_positive(const RoundedSide& u, const RoundedSide& v, const RoundedSide& w,
                         const RoundedSide& z) {
   const double value =

@@ -43,7 +43,7 @@ void Assembler::add_point(double x, double y, double z, int line) {
 }
 
 void Assembler::add_triangle(const Triangle& corners, int line, int label) {
-  if (mesh_.triangles.size() >= static_cast<std::size_t>(max_count)) fail(line, "too many faces");
+  if (mesh_.triangles.size() >= static_cast<std::size_t>(most_items)) fail(line, "too many faces");
   if (label == padding_label) fail(line, "label " + std::to_string(label) + " is reserved");
   if (label != 0 && mesh_.labels.empty()) mesh_.labels.assign(mesh_.triangles.size(), 0);
   mesh_.triangles.push_back(corners);

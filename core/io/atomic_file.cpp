@@ -56,8 +56,8 @@ fs::path next_name_beside(const fs::path& target) {
                                  std::to_string(counter++) + std::string(staged_end));
 }
 
-// The lock of a staged file tells remove_leftovers that its process lives. False if another process has it, which
-// then removes the file. Where the file system knows no locks, nothing is ever taken for left over.
+// The lock of a staged file tells remove_leftovers that its process lives. False if another process has it,
+// which then removes the file. Where the file system knows no locks, nothing is ever taken for left over.
 bool take_lock(int descriptor) {
   return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
@@ -67,7 +67,8 @@ bool is_still_there(int descriptor) {
   return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
 }
 
-// A new file, locked, under a name that nothing has: what a killed process of the same number left is no hindrance.
+// A new file, locked, under a name that nothing has: what a killed process of the same number left is no
+// hindrance.
 std::pair<fs::path, int> open_staged(const fs::path& target) {
   for (;;) {
     fs::path path = next_name_beside(target);

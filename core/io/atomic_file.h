@@ -13,8 +13,8 @@
 namespace kinemesh {
 
 // A file's new content, on the disk beside it under a name of its own: several files can be staged before the
-// first one is put in place. What is never committed goes away with the object; what a killed process has left
-// is found by remove_leftovers.
+// first one is put in place. What is never committed goes away with the object; what a killed process has
+// left is found by remove_leftovers.
 class StagedFile {
  public:
   // Throws, leaving nothing: the folder is missing or not writable, the disk is full, or `path` is a link, a
@@ -40,14 +40,16 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 // Where a chain of symbolic links leads, for files that the user has named and may have named by a link.
 std::filesystem::path follow_links(const std::filesystem::path& path);
 
-// Throws what writing `path` would throw for a reason that is known before there is content: no such folder, one
-// that may not be written to, something that is no regular file at that place.
+// Throws what writing `path` would throw for a reason that is known before there is content: no such folder,
+// one that may not be written to, something that is no regular file at that place.
 void require_place_for(const std::filesystem::path& path);
 
-// Throws InputError where something stands at that place that is no regular file: a link, folder, pipe, device.
+// Throws InputError where something stands at that place that is no regular file: a link, folder, pipe,
+// device.
 void require_regular_or_nothing(const std::filesystem::path& path);
 
-// Removes the files in a folder that processes which are no more have staged and neither committed nor discarded.
+// Removes the files in a folder that processes which are no more have staged and neither committed nor
+// discarded.
 void remove_leftovers(const std::filesystem::path& directory);
 bool is_staged_name(std::string_view name);
 

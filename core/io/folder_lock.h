@@ -7,9 +7,9 @@
 
 namespace kinemesh {
 
-// Holds a folder against other processes that lock it, too. The lock is the kernel's, on the folder itself: it
-// leaves no file, and dies with its process, however that ends. On a network file system it may hold among the
-// processes of one machine only.
+// Holds a folder against other processes that lock it, too. The lock is the kernel's, on the folder itself:
+// it leaves no file, and dies with its process, however that ends. On a network file system it may hold among
+// the processes of one machine only.
 class FolderLock {
  public:
   FolderLock() = default;  // of no folder

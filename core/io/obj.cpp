@@ -61,7 +61,7 @@ class ObjReader {
     const std::string_view word = scanner_.word("vertex number");
     const int n = mesh_.mesh().n_vertices();
     const long long number = corner_number(word.substr(0, word.find('/')));
-    if (number == 0 || number < -n || number > max_count) {
+    if (number == 0 || number < -n || number > most_items) {
       scanner_.fail("vertex " + std::to_string(number) + " does not exist, " + std::to_string(n) +
                     " came before, expected numbers from 1 up or from -1 down");
     }

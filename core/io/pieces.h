@@ -1,5 +1,5 @@
-// Text in pieces that are read at the same time. Where one of them is refused the caller reads it all again from
-// front to back, and so names the first mistake. For .cpp files: brings TBB.
+// Text in pieces that are read at the same time. Where one of them is refused the caller reads it all again
+// from front to back, and so names the first mistake. For .cpp files: brings TBB.
 #pragma once
 
 #include <atomic>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemesh/mesh_data.h"
+
 namespace kinemesh::io {
 namespace {
 
@@ -176,8 +178,8 @@ int Scanner::count(const char* what, std::size_t bytes_each) {
 
 void Scanner::check_count(long long n, const char* what, std::size_t bytes_each) const {
   if (n < 0) fail(std::to_string(n) + " is negative, expected " + what);
-  if (n > max_count)
-    fail(std::to_string(n) + " is more than " + std::to_string(max_count) + ", the largest " + what);
+  if (n > most_items)
+    fail(std::to_string(n) + " is more than " + std::to_string(most_items) + ", the largest " + what);
   if (static_cast<std::size_t>(n) > bytes_left() / bytes_each + 1) {
     fail(std::to_string(n) + " as " + what + " is more than the rest of the file can hold");
   }

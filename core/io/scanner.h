@@ -8,9 +8,6 @@
 
 namespace kinemesh::io {
 
-// Vertices, faces and sides (six for each face) can then all be numbered by an int.
-inline constexpr int max_count = 357'913'941;
-
 class Scanner {
  public:
   // `comment` starts a comment up to the end of the line wherever a word could start; 0: the format has none.

@@ -19,9 +19,9 @@ class VtuArrays {
   // read.
   VtuArrays(std::string file, std::string_view xml, const pugi::xml_node& root, std::string_view appended);
 
-  // Values of a DataArray. Floating-point ones are finite. Compressed ones are inflated only if they are no more
-  // than `most`. Memory stays in proportion to the file's size, or to `most`: arrays at one offset are decoded
-  // once, and refused where what they repeat would be many times the file.
+  // Values of a DataArray. Floating-point ones are finite. Compressed ones are inflated only if they are no
+  // more than `most`. Memory stays in proportion to the file's size, or to `most`: arrays at one offset are
+  // decoded once, and refused where what they repeat would be many times the file.
   std::vector<double> reals(const pugi::xml_node& array, std::uint64_t most);
   std::vector<long long> integers(const pugi::xml_node& array, std::uint64_t most);
   static bool is_integer(const pugi::xml_node& array);

@@ -87,7 +87,7 @@ class VtuReader {
   }
   // As many things as a count may stand for.
   static std::uint64_t most(long long count) {
-    return static_cast<std::uint64_t>(std::clamp<long long>(count, 0, 4LL * max_count));
+    return static_cast<std::uint64_t>(std::clamp<long long>(count, 0, 4LL * most_items));
   }
   void require_size(const pugi::xml_node& array, std::size_t size, long long expected,
                     const char* what) const {
@@ -104,7 +104,7 @@ class VtuReader {
     const std::vector<double> x = arrays_.reals(array, 3 * most(n));
     if (x.size() % 3 != 0) arrays_.fail(array, "the coordinates are no multiple of 3");
     require_size(array, x.size() / 3, n, "points");
-    if (n > max_count) arrays_.fail(array, "too many points");
+    if (n > most_items) arrays_.fail(array, "too many points");
     mesh_.mesh().points.reserve(x.size() / 3);
     const int line = arrays_.line_of(array);
     for (std::size_t i = 0; i < x.size(); i += 3) mesh_.add_point(x[i], x[i + 1], x[i + 2], line);

@@ -195,9 +195,9 @@ class VtuWriter {
     head << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n";
   }
 
-  // Older VTKs read XML in blocks of 4096 bytes. A recent libexpat tells of a tag not before it has seen twice as
-  // much; so such a VTK (that of Debian 12's ParaView among them) hands it the block of the last tag and the one
-  // behind it before it knows that data follow. With spaces there it does not take data for XML.
+  // Older VTKs read XML in blocks of 4096 bytes. A recent libexpat tells of a tag not before it has seen
+  // twice as much; so such a VTK (that of Debian 12's ParaView among them) hands it the block of the last tag
+  // and the one behind it before it knows that data follow. With spaces there it does not take data for XML.
   static std::size_t padding_behind(std::size_t head) {
     constexpr std::size_t block = 4096;
     return (head + block - 1) / block * block + block - head;

@@ -18,8 +18,8 @@ inline bool is_movable(const Mesh& mesh, int v) {
   return mesh.user_vertex(v) != none && !mesh.is_isolated(v) && !mesh.is_constrained(v) && !mesh.is_fixed(v);
 }
 
-// Where a fan starts does not depend on what was replaced before: the side that leaves a vertex along the hull, or, inside,
-// that of the lowest of its faces. Pre: not isolated.
+// Where a fan starts does not depend on what was replaced before: the side that leaves a vertex along the
+// hull, or, inside, that of the lowest of its faces. Pre: not isolated.
 inline int start_of_fan(const Mesh& mesh, int vertex) {
   const int some = mesh.side_from(vertex);
   int start = some;
@@ -32,8 +32,8 @@ inline int start_of_fan(const Mesh& mesh, int vertex) {
   }
 }
 
-// Calls visit(side) for the sides that start at a vertex, each of another of its faces, counter-clockwise while these are
-// upright, from start_of_fan on.
+// Calls visit(side) for the sides that start at a vertex, each of another of its faces, counter-clockwise
+// while these are upright, from start_of_fan on.
 template <class Visit>
 void for_each_side_from(const Mesh& mesh, int vertex, const Visit& visit) {
   if (mesh.is_isolated(vertex)) return;
@@ -45,8 +45,8 @@ void for_each_side_from(const Mesh& mesh, int vertex, const Visit& visit) {
   } while (side != first && side != none);
 }
 
-// Calls visit(neighbour, side) for each edge at a vertex, with its side that starts there; counter-clockwise, as above. On
-// the hull the first is the edge that has no such side, with the one that ends there.
+// Calls visit(neighbour, side) for each edge at a vertex, with its side that starts there; counter-clockwise,
+// as above. On the hull the first is the edge that has no such side, with the one that ends there.
 template <class Visit>
 void for_each_neighbour(const Mesh& mesh, int vertex, const Visit& visit) {
   if (mesh.is_isolated(vertex)) return;
@@ -68,7 +68,8 @@ class Spokes {
   int side() const { return side_; }  // one of the edge
   int end() const { return is_ending_ ? mesh_.from(side_) : mesh_.to(side_); }
 
-  // Counter-clockwise; where that comes to the hull, to its edge, which no side starts along, and clockwise from the first.
+  // Counter-clockwise; where that comes to the hull, to its edge, which no side starts along, and clockwise
+  // from the first.
   void advance() {
     if (is_ending_ || is_back_) return turn_back();
     const int before = Mesh::prev(side_), next = mesh_.opposite(before);
@@ -90,7 +91,8 @@ class Spokes {
   bool is_back_ = false;
 };
 
-// Whether an edge joins the two. Looks around both in turn, so that one with many neighbours costs no more than the other.
+// Whether an edge joins the two. Looks around both in turn, so that one with many neighbours costs no more
+// than the other.
 inline bool are_joined(const Mesh& mesh, int v, int w) {
   for (Spokes at_v(mesh, v), at_w(mesh, w); !at_v.is_done() && !at_w.is_done();
        at_v.advance(), at_w.advance())

@@ -90,6 +90,8 @@ std::string name_of(const Edge& edge) {
 }  // namespace
 
 void MeshBuilder::check_input() const {
+  check_size(data_.points.size(), "vertices");
+  check_size(data_.triangles.size(), "faces");
   const int n = data_.n_vertices();
   if (data_.triangles.empty()) throw InputError("the mesh has no faces");
   if (!data_.labels.empty() && data_.labels.size() != data_.triangles.size()) {
@@ -229,6 +231,7 @@ void MeshBuilder::embed() {
 // Sides of padding meet each other or the border; an interior edge of a tangled domain may have the same ends
 // as an edge of the padding, so the two must not be paired by their ends.
 void MeshBuilder::add_padding(std::span<const Triangle> padding) {
+  check_size(mesh_.triangles_.size() + padding.size(), "faces with the padding around the domain");
   const int first_side = static_cast<int>(opposite_.size());
   auto inner = pair_sides(padding, mesh_.n_vertices());
   for (int& s : inner.opposite) s = s == none ? none : s + first_side;
@@ -365,8 +368,8 @@ void MeshBuilder::constrain_markers() {
   }
 }
 
-// Turns about both ends at the same time until the first one has come around: summed over the edges of a planar
-// graph this is in proportion to their number, however many meet in a vertex [Chiba 1985].
+// Turns about both ends at the same time until the first one has come around: summed over the edges of a
+// planar graph this is in proportion to their number, however many meet in a vertex [Chiba 1985].
 int MeshBuilder::find_edge(int user_a, int user_b) const {
   const int n = data_.n_vertices();
   if (user_a < 0 || user_a >= n || user_b < 0 || user_b >= n) return none;

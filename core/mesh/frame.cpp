@@ -36,17 +36,27 @@ Box domain_box(const Mesh& mesh) {
   return box;
 }
 
-// A step that is longer than the frame is deep takes the frame with it. Places that are not finite, which nothing
-// reaches, are left to who looks for them.
+// A step that is longer than the frame is deep takes the frame with it, be it to where no numbers go.
 void enlarge(const Mesh& mesh, std::span<Point> next) {
   Box box = nowhere;
   for (const auto& constraint : mesh.constraints())
     if (constraint.is_border()) box = hull_of(box, next[constraint.from]);
   const Point low = next[mesh.frame()[0]], high = next[mesh.frame()[2]];
   const bool is_inside = low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y;
-  if (is_inside || !std::isfinite(diagonal(box))) return;
+  if (is_inside) return;
   const auto fresh = rectangle(box, mesh.frame_margin());
   for (int i = 0; i < 4; ++i) next[mesh.frame()[i]] = fresh[i];
+}
+
+std::optional<Defect> non_finite_corner(const Mesh& mesh, std::span<const Point> next) {
+  for (const int corner : mesh.frame()) {
+    if (std::isfinite(next[corner].x) && std::isfinite(next[corner].y)) continue;
+    return Defect{.kind = DefectKind::NonFinitePosition,
+                  .vertices = {none},
+                  .where = mesh.position(corner),
+                  .detail = "the frame cannot follow, a smaller frame or smaller coordinates expected"};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -57,8 +67,8 @@ std::array<Point, 4> frame_around(std::span<const Point> points, double margin) 
   return rectangle(box, margin);
 }
 
-void follow(const Mesh& mesh, std::span<Point> next) {
-  if (mesh.frame().empty()) return;
+std::optional<Defect> follow(const Mesh& mesh, std::span<Point> next) {
+  if (mesh.frame().empty()) return std::nullopt;
   const auto box = domain_box(mesh);
   const Point low = mesh.position(mesh.frame()[0]), high = mesh.position(mesh.frame()[2]);
   const auto gaps = {box.low.x - low.x, box.low.y - low.y, high.x - box.high.x, high.y - box.high.y};
@@ -70,6 +80,7 @@ void follow(const Mesh& mesh, std::span<Point> next) {
     next[corner] = stays ? mesh.position(corner) : fresh[i];
   }
   enlarge(mesh, next);
+  return non_finite_corner(mesh, next);
 }
 
 std::optional<Defect> hull_defect(const Mesh& mesh, std::span<const Point> next) {

@@ -15,9 +15,10 @@ namespace kinemesh {
 std::array<Point, 4> frame_around(std::span<const Point> points, double margin);
 
 // The frame follows a drifting domain: where the domain of `mesh` has come closer to it than half its margin,
-// or has left more than twice its margin, new corners are written to `next`; otherwise the old ones. Where the
-// border at `next` would reach or leave the frame all the same, the corners lie around it. Nothing without a frame.
-void follow(const Mesh& mesh, std::span<Point> next);
+// or has left more than twice its margin, new corners are written to `next`; otherwise the old ones. Where
+// the border at `next` would reach or leave the frame all the same, the corners lie around it. Nothing
+// without a frame. A defect where numbers do not go as far as a corner would have to.
+[[nodiscard]] std::optional<Defect> follow(const Mesh& mesh, std::span<Point> next);
 
 // Without a frame, the corners of the convex hull have to stay where they are, and its other vertices on the
 // straight line between their neighbours of the hull. The first that would not, at the positions `next`;

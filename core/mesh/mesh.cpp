@@ -115,8 +115,8 @@ FaceState Mesh::save(int face) const {
   return state;
 }
 
-// The oldest come last. What a state says of its neighbours holds once these have been written, too: a face that is not
-// restored has not changed.
+// The oldest come last. What a state says of its neighbours holds once these have been written, too: a face
+// that is not restored has not changed.
 template <class At>
 void Mesh::restore(std::size_t n, const At& at) noexcept {
   const auto for_each_line = [&](const auto& visit) {

@@ -7,8 +7,8 @@
 
 namespace kinemesh {
 
-// As build_mesh, with the vertices in this order: each of the user's numbers once, and n_vertices + i for corner i of the
-// frame, if there is one. Throws InputError for another one.
+// As build_mesh, with the vertices in this order: each of the user's numbers once, and n_vertices + i for
+// corner i of the frame, if there is one. Throws InputError for another one.
 Mesh build_mesh(const MeshData& data, const BuildOptions& options, std::span<const int> order);
 
 }  // namespace kinemesh

@@ -261,6 +261,8 @@ bool is_consistent(const MeshData& data) {
 }  // namespace
 
 std::vector<std::string> make_consistent(MeshData& data) {
+  check_size(data.points.size(), "vertices");
+  check_size(data.triangles.size(), "faces");
   if (is_consistent(data)) return {};
   check_corners(data);
   return Winder(data).run();

@@ -17,8 +17,8 @@ struct Patch {
   std::vector<int> faces;           // the faces to rewrite
   std::vector<Triangle> triangles;  // as many; triangle i is written to faces[i]
   std::vector<int> labels;          // one per triangle
-  // Beyond side k of triangle i: side 4 j + m of triangle j, or ~s where it lies where side s of one of the faces to
-  // rewrite lies on their border.
+  // Beyond side k of triangle i: side 4 j + m of triangle j, or ~s where it lies where side s of one of the
+  // faces to rewrite lies on their border.
   std::vector<Triangle> across;
   std::vector<Line> lines;  // the constrained edges, each once, those of the border too
 };

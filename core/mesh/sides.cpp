@@ -20,8 +20,8 @@ int lower_end(const Edge& ends) {
   return std::min(ends[0], ends[1]);
 }
 
-// The vertices in groups of consecutive ones: so few that the sides of a group are sorted in the cache, and so
-// many that counting sides by part and group costs nothing.
+// The vertices in groups of consecutive ones: so few that the sides of a group are sorted in the cache, and
+// so many that counting sides by part and group costs nothing.
 class Groups {
  public:
   explicit Groups(int n_vertices) : n_vertices_(n_vertices) {

@@ -8,8 +8,8 @@
 
 namespace kinemesh {
 
-// 44 bytes for each face that is rewritten, each time. Where memory runs out the change has not been made, and
-// those before it are still taken back.
+// 44 bytes for each face that is rewritten, each time. Where memory runs out the change has not been made,
+// and those before it are still taken back.
 class Undo {
  public:
   explicit Undo(Mesh& mesh) : mesh_(mesh) {}

@@ -63,7 +63,8 @@ Found check_fan(const Mesh& mesh, int v, int degree) {
       .detail = "the faces around vertex " + number(mesh.user_vertex(v)) + " form more than one fan"};
 }
 
-// After check_faces: each side has at most one before it and one behind it around its vertex, so that going around ends.
+// After check_faces: each side has at most one before it and one behind it around its vertex, so that going
+// around ends.
 Found check_fans(const Mesh& mesh) {
   std::vector<int> degree(mesh.n_vertices(), 0);
   for (const Triangle& corners : mesh.triangles())

@@ -27,7 +27,8 @@ inline Point on_circle(double radius, double turns) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-// Throws InputError for a shape that `vertices` are not enough for.
+// Throws InputError for a shape that `vertices` are not enough for, and where they are more than a mesh can
+// have.
 void require_vertices(std::string_view shape, int vertices, int minimum);
 
 }  // namespace kinemesh

@@ -32,15 +32,19 @@ const ShapeInfo& info(std::string_view name) {
 }  // namespace
 
 void require_vertices(std::string_view shape, int vertices, int minimum) {
-  if (vertices >= minimum) return;
-  throw InputError(std::string(shape) + ": " + std::to_string(vertices) + " vertices, expected at least " +
-                   std::to_string(minimum));
+  constexpr int most = most_items / 2;  // a vertex brings two faces
+  if (vertices >= minimum && vertices <= most) return;
+  const std::string expected =
+      vertices < minimum ? "at least " + std::to_string(minimum) : "at most " + std::to_string(most);
+  throw InputError(std::string(shape) + ": " + std::to_string(vertices) + " vertices, expected " + expected);
 }
 
 MeshData make_grid(int nx, int ny) {
   if (nx < 1 || ny < 1)
     throw InputError("grid: " + std::to_string(nx) + " by " + std::to_string(ny) +
                      " cells, expected at least 1 by 1");
+  check_size((std::size_t{1} + nx) * (std::size_t{1} + ny), "vertices of a grid");
+  check_size(std::size_t{2} * nx * ny, "faces of a grid");
   const auto vertex = [nx](int i, int j) { return j * (nx + 1) + i; };
   MeshData mesh;
   mesh.points.reserve(static_cast<std::size_t>(nx + 1) * (ny + 1));

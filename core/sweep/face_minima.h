@@ -1,6 +1,6 @@
 // The smallest area and angle of the domain's faces, kept stretch by stretch: what has been measured on the
-// way, by a sweep for inverted faces say, need not be measured again but where faces have been rewritten since
-// or vertices have moved.
+// way, by a sweep for inverted faces say, need not be measured again but where faces have been rewritten
+// since or vertices have moved.
 #pragma once
 
 #include <array>
@@ -29,8 +29,8 @@ class FaceMinima {
   // Vertices have moved, anywhere if it is null. In all threads.
   void outdate_moved(const Mesh& mesh, const MovedBlocks* moved);
 
-  // What a sweep has seen of a stretch (core/sweep/face_sweep.h), padding included. Several at the same time, of
-  // different stretches.
+  // What a sweep has seen of a stretch (core/sweep/face_sweep.h), padding included. Several at the same time,
+  // of different stretches.
   void set(int stretch, const Sight& seen, const Mesh& mesh);
 
   // A sweep has proved all faces of the stretch upright, padding included, and nothing has changed since.
@@ -49,8 +49,8 @@ class FaceMinima {
  private:
   enum class Known : std::uint8_t { Nothing, Minima, Upright };  // the latter with minima
 
-  // Where the corners of a stretch are: in 64 blocks from `first` on, most of them, and in a few others; in more
-  // than `most_others` as if anywhere.
+  // Where the corners of a stretch are: in 64 blocks from `first` on, most of them, and in a few others; in
+  // more than `most_others` as if anywhere.
   struct Corners {
     static constexpr int most_others = 4;
     std::uint64_t near = 0;  // bit i: block first + i; 0 before anybody has looked

@@ -70,8 +70,8 @@ Sight sweep(const double* positions, const int* triangles, const int* ahead) {
   Sweep<Lanes, look> faces;
   std::uint64_t doubtful = 0;
   for (int f = 0; f < stretch_faces; f += Lanes::faces) {
-    // Faces are in the order of their lowest vertex: first corners are mostly near each other, and two faces in a
-    // row mostly share a side.
+    // Faces are in the order of their lowest vertex: first corners are mostly near each other, and two faces
+    // in a row mostly share a side.
     for (int i = f; i < f + Lanes::faces; i += 2) {
       __builtin_prefetch(positions + 2 * ahead[3 * i + 1]);
       __builtin_prefetch(positions + 2 * ahead[3 * i + 2]);

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# FreeFEM's movemesh stops with reversed triangles; kinemesh takes the step from the same mesh; FreeFEM goes on.
+# FreeFEM's movemesh stops with reversed triangles; kinemesh takes the step from the same mesh; FreeFEM goes
+# on.
 #   twist.sh FREEFEM KINEMESH FOLDER   e.g. twist.sh FreeFem++ build/release/kinemesh /tmp/twist
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

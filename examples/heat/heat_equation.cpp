@@ -66,8 +66,8 @@ void HeatEquation::move(double t, double dt) {
   faces_replaced_ += static_cast<long>(changed_.size());
 }
 
-// Those with other corners, and those between the body and the medium: all others have moved rigidly or not at
-// all.
+// Those with other corners, and those between the body and the medium: all others have moved rigidly or not
+// at all.
 std::vector<int> HeatEquation::reshaped_faces() const {
   std::vector<int> faces;
   for (const auto& change : changed_) faces.push_back(change.face);

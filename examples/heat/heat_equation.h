@@ -3,10 +3,10 @@
 //   du/dt + v . grad u = laplace u + f,   v: the velocity of the body inside it, 0 outside
 //
 // The body's vertices move with it, the others rest, so that the left-hand side is the rate of a vertex's own
-// value: BDF2 on the values at the vertices, wherever these are and whatever faces are between them. Values of
-// vertices need no transfer when faces are replaced. Only between the body and the medium faces move otherwise
-// than what is in them, with a velocity w in a medium at rest: there w . grad u is added to the right-hand
-// side, extrapolated from the steps before (ALE).
+// value: BDF2 on the values at the vertices, wherever these are and whatever faces are between them. Values
+// of vertices need no transfer when faces are replaced. Only between the body and the medium faces move
+// otherwise than what is in them, with a velocity w in a medium at rest: there w . grad u is added to the
+// right-hand side, extrapolated from the steps before (ALE).
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// Heat in a square with a turning body. Checks that a constant stays constant and that a manufactured solution
-// converges with second order while regions of the mesh are replaced; then heats one side of the body. Exit 1
-// where a check fails.
+// Heat in a square with a turning body. Checks that a constant stays constant and that a manufactured
+// solution converges with second order while regions of the mesh are replaced; then heats one side of the
+// body. Exit 1 where a check fails.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

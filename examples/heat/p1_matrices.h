@@ -15,8 +15,8 @@ using kinemesh::MeshData;
 using kinemesh::Point;
 using kinemesh::Triangle;
 
-// One triangle's share. Entries of the mass matrix are area / 12, on its diagonal area / 6. Both matrices stay
-// the same when the triangle is moved rigidly.
+// One triangle's share. Entries of the mass matrix are area / 12, on its diagonal area / 6. Both matrices
+// stay the same when the triangle is moved rigidly.
 struct Element {
   double area = 0.0;
   std::array<std::array<double, 3>, 3> stiffness{};  // integral of grad phi_i . grad phi_j

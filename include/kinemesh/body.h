@@ -18,15 +18,16 @@ struct BodySpec {
   std::vector<AnyField> motion;  // no noise; empty: it stays where it is
 };
 
-// x(t) = c + R(angle)(X - c) + shift + displacements, a function of the initial position X and the time alone: what
-// the fields say at t, less what they say at 0. Fields with a pose (motion/fields/pose.h) add up to angle and shift; they
-// turn about one centre, which travels with the body. Rounded once, from more digits than a double has, so that a
-// border is exact after any number of steps, and the same bits whatever their length. Other velocity fields are
-// integrated at its vertices, and then "exact" does not apply.
+// x(t) = c + R(angle)(X - c) + shift + displacements, a function of the initial position X and the time
+// alone: what the fields say at t, less what they say at 0. Fields with a pose (motion/fields/pose.h) add up
+// to angle and shift; they turn about one centre, which travels with the body. Rounded once, from more digits
+// than a double has, so that a border is exact after any number of steps, and the same bits whatever their
+// length. Other velocity fields are integrated at its vertices, and then "exact" does not apply.
 class Body {
  public:
-  // initial: the mesh at the start of the run. Throws ParameterError: key "on" for a name the mesh does not have or
-  // no part at all, "motion" for noise, two centres, or a record that does not hold the body's vertices.
+  // initial: the mesh at the start of the run. Throws ParameterError: key "on" for a name the mesh does not
+  // have or no part at all, "motion" for noise, two centres, or a record that does not hold the body's
+  // vertices.
   Body(const Mesh& initial, const BodySpec& spec);
 
   const std::string& name() const { return name_; }                  // its parts; several in quotes
@@ -34,7 +35,8 @@ class Body {
   std::span<const int> vertices() const { return vertices_; }        // the mesh's numbers, ascending
   bool is_exact() const { return velocities_.empty(); }
 
-  // Where its vertices go in a step from t0 to t1, dt long: x1 of each is written, x0 read where it is not exact.
+  // Where its vertices go in a step from t0 to t1, dt long: x1 of each is written, x0 read where it is not
+  // exact.
   void move(std::span<const Point> initial, std::span<const Point> x0, double t0, double t1, double dt,
             Integrator integrator, std::span<Point> x1) const;
 

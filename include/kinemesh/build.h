@@ -28,8 +28,8 @@ class NoEmbedding : public InputError {
 
 // Embeds `data` in padding, renumbers along a Hilbert curve, constrains borders, markers and label
 // interfaces. Faces may be tangled; borders may not. Pre: consistent winding, as make_consistent
-// (kinemesh/orient.h) leaves it. Throws InputError for wrong indices and non-manifold faces, NoEmbedding where
-// borders or constrained edges cross, touch or are inside out.
+// (kinemesh/orient.h) leaves it. Throws InputError for wrong indices and non-manifold faces, NoEmbedding
+// where borders or constrained edges cross, touch or are inside out.
 Mesh build_mesh(const MeshData& data, const BuildOptions& options = {});
 
 }  // namespace kinemesh

@@ -32,8 +32,8 @@ struct CellUpdate {
 // Conservative remap of amounts: what a face holds all together, such as a mass. By label, the sum over the
 // new faces is that over the old ones, exact to rounding.
 //
-// Formula: an old face T is carried along with its vertices, inverted or not, and its amount Q_T spread evenly
-// over its image f(T). A new face N of the same label receives
+// Formula: an old face T is carried along with its vertices, inverted or not, and its amount Q_T spread
+// evenly over its image f(T). A new face N of the same label receives
 //     Q_N = sum over T of Q_T |f(T) cut with N| / |f(T)|,
 // and what falls beside the label's new faces, or lies on an f(T) without area, is given to all of them in
 // proportion to their areas. First order, as the cell-intersection remap it is [Dukowicz 1984]; linear in Q.

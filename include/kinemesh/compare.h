@@ -26,13 +26,14 @@ struct Round {
 // A mesh as it was moved, before it is repaired: of the first strategy.
 using TangledMeshViewer = std::function<void(int step, const Mesh& tangled)>;
 
-// Runs the scenario once for all strategies, in the place of its own. At each step the motion takes the common
-// positions of the step before, whatever the strategies have made of the mesh, and each strategy is given the
-// result; its own mesh differs from the others' by its connectivity, and in its positions if it moves vertices.
-// One that finds no valid mesh where another does goes on with a copy of the other's mesh; its round is not
-// accepted. Steps are timed in turn. Calls `view`, if there is one, before each step, `tell` for each round, and returns why it ended early, if it did: no strategy had
-// a valid mesh. Throws InputError for unknown strategies, std::logic_error for a mesh that a strategy claims to be
-// valid and is not. made: of the scenario, by set_up (sim/scenario/setup.h).
+// Runs the scenario once for all strategies, in the place of its own. At each step the motion takes the
+// common positions of the step before, whatever the strategies have made of the mesh, and each strategy is
+// given the result; its own mesh differs from the others' by its connectivity, and in its positions if it
+// moves vertices. One that finds no valid mesh where another does goes on with a copy of the other's mesh;
+// its round is not accepted. Steps are timed in turn. Calls `view`, if there is one, before each step, `tell`
+// for each round, and returns why it ended early, if it did: no strategy had a valid mesh. Throws InputError
+// for unknown strategies, std::logic_error for a mesh that a strategy claims to be valid and is not. made: of
+// the scenario, by set_up (sim/scenario/setup.h).
 std::optional<std::string> compare_strategies(const Scenario& scenario, SetUp made,
                                               std::span<const std::string> strategies,
                                               const std::function<void(const Round&)>& tell,

@@ -40,8 +40,8 @@ class DelaunayFlipping {
   // From all edges. Without a defect the mesh is valid in the end.
   [[nodiscard]] FlipOutcome run(Mesh& mesh, const RepairOptions& options = {});
 
-  // From these sides' edges; sides_of the faces that are new or have a moved corner are all that can have changed.
-  // Cost: their number, four visits a flip, and the repairs. Tangles that no flip meets stay. Throws
+  // From these sides' edges; sides_of the faces that are new or have a moved corner are all that can have
+  // changed. Cost: their number, four visits a flip, and the repairs. Tangles that no flip meets stay. Throws
   // InputError for a side that does not exist.
   [[nodiscard]] FlipOutcome run(Mesh& mesh, std::span<const int> sides, const RepairOptions& options = {});
 

@@ -7,8 +7,8 @@
 
 namespace kinemesh {
 
-// A caller's or a file's mistake. what() reads "FILE:LINE: what, and what was expected"; FILE and LINE are left
-// out where they are not known.
+// A caller's or a file's mistake. what() reads "FILE:LINE: what, and what was expected"; FILE and LINE are
+// left out where they are not known.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& what) : std::runtime_error(what) {}
@@ -25,8 +25,8 @@ class InputError : public std::runtime_error {
   int line_ = 0;
 };
 
-// Nobody's mistake: the machine lacks what it takes, as on a full disk, at a limit of files or their size, where a
-// device fails. The same call may succeed later. what() names the file.
+// Nobody's mistake: the machine lacks what it takes, as on a full disk, at a limit of files or their size,
+// where a device fails. The same call may succeed later. what() names the file.
 class ResourceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,9 +1,9 @@
 // Where vertices want to go: pure functions of position and time, or of vertex and step for noise.
 //
-// A field owns no time, no mesh and no integrator; kinemesh/motion.h puts them together. Derive from one of the
-// three to add a field, and register it (kinemesh/registry.h) to use it by name. Fields are immutable: every
-// const member may be called from several threads at once. Lengths and times are the user's units, angles are
-// radians.
+// A field owns no time, no mesh and no integrator; kinemesh/motion.h puts them together. Derive from one of
+// the three to add a field, and register it (kinemesh/registry.h) to use it by name. Fields are immutable:
+// every const member may be called from several threads at once. Lengths and times are the user's units,
+// angles are radians.
 #pragma once
 
 #include <cstdint>

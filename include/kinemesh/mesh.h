@@ -1,8 +1,8 @@
 // The kinetic mesh: positions, and a corner table.
 //
-// A side is one face's share of an edge: side 4 f + k runs along face f from its corner k to the next one. The table
-// holds three corners per face and, per side, the side of another face on the same edge. Two sides may have the same
-// ends and be of different edges.
+// A side is one face's share of an edge: side 4 f + k runs along face f from its corner k to the next one.
+// The table holds three corners per face and, per side, the side of another face on the same edge. Two sides
+// may have the same ends and be of different edges.
 //
 // The domain the user gave is embedded in padding: faces that fill its holes and the space up to its convex
 // hull or to a rectangular frame, so that the whole is a disc with convex border [Agarwal 2008, §1, boundary
@@ -122,9 +122,9 @@ class Mesh {
   // An unconstrained edge inside the padded mesh: both its faces have the same label.
   bool is_flippable(int side) const { return !has_constraint(side) && opposite(side) != none; }
 
-  // Turns an edge between two faces into their other diagonal, within the same two faces. Of side a -> b of the lower
-  // face that one becomes dbc; both start at their lowest corner. Nothing else changes. Pre: is_flippable(side),
-  // c != d. Returns the lower side of the new edge.
+  // Turns an edge between two faces into their other diagonal, within the same two faces. Of side a -> b of
+  // the lower face that one becomes dbc; both start at their lowest corner. Nothing else changes. Pre:
+  // is_flippable(side), c != d. Returns the lower side of the new edge.
   //      c             c
   //    /   \         / | \       .
   //   a --> b  ->   a  |  b
@@ -132,12 +132,13 @@ class Mesh {
   //      d             d
   int flip(int side) noexcept;
 
-  // Rewrites patch.faces in place; nothing else changes. Uses the patch up. Pre: the patch covers the same vertices and
-  // has the same border as its faces. Cost: O(patch). Takes no memory.
+  // Rewrites patch.faces in place; nothing else changes. Uses the patch up. Pre: the patch covers the same
+  // vertices and has the same border as its faces. Cost: O(patch). Takes no memory.
   void splice(Patch& patch) noexcept;
 
-  // A face as it is, and back again: all that have changed since they were saved, at once; of a face that was saved more
-  // than once the first is what counts. Bit for bit, but for which side side_from names. Takes no memory.
+  // A face as it is, and back again: all that have changed since they were saved, at once; of a face that was
+  // saved more than once the first is what counts. Bit for bit, but for which side side_from names. Takes no
+  // memory.
   FaceState save(int face) const;
   void restore(std::span<const FaceState> saved) noexcept;
   void restore(std::span<const FaceState> saved,

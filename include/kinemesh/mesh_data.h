@@ -1,7 +1,9 @@
-// A triangulation as plain arrays in the user's numbering: what a file holds, what a solver hands over, and what comes
-// back. No invariant but the index ranges; kinemesh/mesh.h is the structure that is kept consistent.
+// A triangulation as plain arrays in the user's numbering: what a file holds, what a solver hands over, and
+// what comes back. No invariant but the index ranges; kinemesh/mesh.h is the structure that is kept
+// consistent.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,6 +18,10 @@ struct Marker {
   std::vector<Edge> edges;
 };
 
+// Of vertices, and of faces with their padding: a word of the mesh holds twice a side's number 4 f + k, and
+// one more.
+inline constexpr int most_items = (1 << 28) - 1;
+
 struct MeshData {
   std::vector<Point> points;               // a vertex in no triangle keeps its number
   std::vector<Triangle> triangles;         // vertex numbers from 0
@@ -27,5 +33,8 @@ struct MeshData {
   int n_faces() const { return static_cast<int>(triangles.size()); }
   int label(int face) const { return labels.empty() ? 0 : labels[face]; }
 };
+
+// Throws InputError where n is more than most_items. `what` there are, in plural: "faces".
+void check_size(std::size_t n, const std::string& what);
 
 }  // namespace kinemesh

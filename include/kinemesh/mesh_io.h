@@ -47,9 +47,9 @@ ReadResult read_mesh(const std::filesystem::path& path, const ReadOptions& optio
 ReadResult parse_mesh(std::string_view text, Format format, const std::string& name,
                       const ReadOptions& options = {});
 
-// Writes a file by its extension, whole or not at all (core/io/atomic_file.h); where `path` is a symbolic link, the
-// file it leads to. Throws InputError; also for what no reader would take back: numbers out of range, non-finite
-// coordinates, marker names the format cannot spell.
+// Writes a file by its extension, whole or not at all (core/io/atomic_file.h); where `path` is a symbolic
+// link, the file it leads to. Throws InputError; also for what no reader would take back: numbers out of
+// range, non-finite coordinates, marker names the format cannot spell.
 void write_mesh(const std::filesystem::path& path, const MeshData& mesh);
 
 // The content that write_mesh gives a file.

@@ -30,15 +30,17 @@ struct TimeStep {
 };
 
 // Who moves a vertex:
-//   a fixed vertex, nobody; a vertex of a body, its body; a vertex of a border that terms name by its marker, these
-//   terms (of several markers the first that a term names counts); any other vertex, all terms that act there.
+//   a fixed vertex, nobody; a vertex of a body, its body; a vertex of a border that terms name by its marker,
+//   these terms (of several markers the first that a term names counts); any other vertex, all terms that act
+//   there.
 class Motion {
  public:
   // mesh: as it is at the start of the whole run, also when a run is resumed: initial positions, weights and
-  // spacing are taken from it. A marker that some term or body names is moving unless `border` says otherwise.
-  // Throws ParameterError where terms, bodies or border do not fit the mesh; its key is "motion.N.on" or
-  // "motion.N.blend", N the number of the term, "body.N.on" or "body.N.motion", "interior.follow" where a term is
-  // blended although the interior follows, or a marker's name as in Freedom.
+  // spacing are taken from it. A marker that some term or body names is moving unless `border` says
+  // otherwise. Throws ParameterError where terms, bodies or border do not fit the mesh; its key is
+  // "motion.N.on" or "motion.N.blend", N the number of the term, "body.N.on" or "body.N.motion",
+  // "interior.follow" where a term is blended although the interior follows, or a marker's name as in
+  // Freedom.
   Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions border = {},
          Integrator integrator = Integrator::Rk4, const std::vector<BodySpec>& bodies = {},
          InteriorOptions interior = {.follow = Follow::None});
@@ -47,10 +49,10 @@ class Motion {
   // at the vertex. Velocities are summed and integrated together. Noise is cut to half the distance to the
   // nearest constrained edge at x0, and left out where it would bring the vertex nearer to one than a
   // thousandth of the spacing: alone it never leaves the domain. What has weight 0 and what does not
-  // move keeps its position bit by bit. Bodies are where they say (kinemesh/body.h). Pre: x0 and x1 have the mesh's
-  // number of vertices and do not overlap. In parallel (TBB); the same bits whatever the number of threads. x1 may
-  // be non-finite: the caller checks. Throws InputError where bodies say different things of a vertex they share, or
-  // a body would leave the line of a sliding border.
+  // move keeps its position bit by bit. Bodies are where they say (kinemesh/body.h). Pre: x0 and x1 have the
+  // mesh's number of vertices and do not overlap. In parallel (TBB); the same bits whatever the number of
+  // threads. x1 may be non-finite: the caller checks. Throws InputError where bodies say different things of
+  // a vertex they share, or a body would leave the line of a sliding border.
   //
   // Without what the interior does to follow the border: motion/following.h.
   void advance(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const;
@@ -59,8 +61,8 @@ class Motion {
     advance(x0, {t, t + dt, dt, step}, x1);
   }
 
-  // For whoever moves the interior: what of the step x0 -> x1 terms give that act on the interior, at every vertex
-  // whoever owns it, without noise. Nothing, and false, where there are none.
+  // For whoever moves the interior: what of the step x0 -> x1 terms give that act on the interior, at every
+  // vertex whoever owns it, without noise. Nothing, and false, where there are none.
   bool ways_inside(std::span<const Point> x0, const TimeStep& step, std::span<Point> ways) const;
 
   // Per vertex: whether its increment is known, or the interior's to find.

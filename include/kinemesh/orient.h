@@ -22,11 +22,11 @@ class FaceError : public InputError {
   std::string reason_;
 };
 
-// Winds faces consistently by walking across edges, the first face of each connected part leading, and turns a part over
-// whose signed areas sum below zero. Rotation of a face's corners is kept; a turned face swaps its last two.
-// Returns one note per kind of change, for the user. Cost: O(n).
-// Throws FaceError: vertex number out of range, repeated vertex, repeated face, more than two faces at an edge, or an
-// edge across which the winding cannot be made consistent (a Moebius strip).
+// Winds faces consistently by walking across edges, the first face of each connected part leading, and turns
+// a part over whose signed areas sum below zero. Rotation of a face's corners is kept; a turned face swaps
+// its last two. Returns one note per kind of change, for the user. Cost: O(n).
+// Throws FaceError: vertex number out of range, repeated vertex, repeated face, more than two faces at an
+// edge, or an edge across which the winding cannot be made consistent (a Moebius strip).
 std::vector<std::string> make_consistent(MeshData& data);
 
 }  // namespace kinemesh

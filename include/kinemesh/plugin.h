@@ -1,5 +1,6 @@
-/* A motion of your own from a shared library, for the field "plugin" of a scenario: plain C, for any compiler and
- * language. The library has one function with C linkage, kinemesh_motion_plugin; examples/plugin shows a whole one.
+/* A motion of your own from a shared library, for the field "plugin" of a scenario: plain C, for any compiler
+ * and language. The library has one function with C linkage, kinemesh_motion_plugin; examples/plugin shows a
+ * whole one.
  *
  * Strings end with a zero. A function that can fail returns 0 if all is well; otherwise it puts a line into
  * `message`, which holds `size` bytes and is empty before, and the step or the scenario is refused with it.
@@ -35,13 +36,13 @@ typedef struct kinemesh_plugin {
   uint32_t version; /* KINEMESH_PLUGIN_VERSION */
   uint32_t kind;    /* KINEMESH_PLUGIN_VELOCITY or KINEMESH_PLUGIN_DISPLACEMENT */
 
-  /* Checks the parameters, sorted by name, which live until it returns, and makes what evaluate needs. Called for
-   * each [[motion]], perhaps several times. May be NULL: no parameters, and no state. */
+  /* Checks the parameters, sorted by name, which live until it returns, and makes what evaluate needs. Called
+   * for each [[motion]], perhaps several times. May be NULL: no parameters, and no state. */
   int (*create)(const kinemesh_plugin_parameter* parameters, size_t n_parameters, void** state, char* message,
                 size_t size);
 
-  /* The velocity or displacement at one position and time. A pure function of its arguments: called from several
-   * threads at once, and in any order. A result that is not finite fails the step, like an error. */
+  /* The velocity or displacement at one position and time. A pure function of its arguments: called from
+   * several threads at once, and in any order. A result that is not finite fails the step, like an error. */
   int (*evaluate)(const void* state, double t, const double position[2], double result[2], char* message,
                   size_t size);
 

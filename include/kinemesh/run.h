@@ -46,6 +46,13 @@ struct PhaseTimes {
   double write = 0.0;  // logs and meshes, beside the steps
 };
 
+// What a run ended early for.
+enum class StopCause {
+  Other,   // a step without valid mesh, the scenario, a signal, a file that cannot be written
+  Memory,  // it has run out
+  Bug,     // a mistake of kinemesh: a std::logic_error
+};
+
 struct RunSummary {
   RunPlan plan;
   int steps = 0;           // accepted
@@ -66,6 +73,7 @@ struct RunSummary {
   long long retries = 0;
   PhaseTimes ms;
   std::optional<std::string> stopped;        // why it ended early; nothing: all steps ended valid
+  StopCause stop_cause = StopCause::Other;   // of `stopped`
   bool can_resume = false;                   // `stopped` is no property of the scenario
   bool was_finished = false;                 // the run to resume had come to its end: nothing was done
   std::vector<std::filesystem::path> files;  // to open: the series, the last mesh, the logs
@@ -89,16 +97,16 @@ std::string why_stopped(const StepOutcome& outcome);
 // final.EXT in the input's own format into options.directory. The files but the two CSVs, which grow a line
 // at a time, are whole or not there. Results do not depend on the number of threads, timings apart.
 //
-// Every output.checkpoint steps, and where a run is stopped, it writes checkpoint.bin, and the one before stays
-// as checkpoint_prev.bin. With `resume` a run goes on from there, after whatever ended it at whatever moment: in
-// the end all files are bit for bit those of an uninterrupted run, but for the columns of steps.csv that end in
-// _ms, run.json and the checkpoints themselves. Without a checkpoint it starts anew.
+// Every output.checkpoint steps, and where a run is stopped, it writes checkpoint.bin, and the one before
+// stays as checkpoint_prev.bin. With `resume` a run goes on from there, after whatever ended it at whatever
+// moment: in the end all files are bit for bit those of an uninterrupted run, but for the columns of
+// steps.csv that end in _ms, run.json and the checkpoints themselves. Without a checkpoint it starts anew.
 //
 // Throws InputError before the first step, with nothing written, for whatever is wrong with scenario, mesh or
 // directory; a tangled mesh and a moving convex hull without frame among them; with `resume`, a checkpoint
 // that is damaged or not of this scenario. What goes wrong later, a step without valid mesh, a full disk, a
-// signal, ends the run: `stopped` says why, and the last valid mesh is written. Where a file cannot be written,
-// the logs and the series go back to the step before, and the last checkpoint stays.
+// signal, ends the run: `stopped` says why, and the last valid mesh is written. Where a file cannot be
+// written, the logs and the series go back to the step before, and the last checkpoint stays.
 RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver& observer);
 
 }  // namespace kinemesh

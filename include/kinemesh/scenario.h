@@ -1,4 +1,5 @@
-// What a run is made of, as a TOML file describes it: mesh, bodies, motions, interior, border, time, repair, output.
+// What a run is made of, as a TOML file describes it: mesh, bodies, motions, interior, border, time, repair,
+// output.
 //
 // Times, lengths and angles are in the user's units and radians unless a name says `_deg`. The structs hold
 // checked values with all defaults in place; `Where` remembers the line for errors that only the mesh can
@@ -131,8 +132,9 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const std::s
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& file,
                         std::span<const std::string> overrides = {});
 
-// What moves a mesh that is there already, for set_up(scenario, mesh): [[body]], [[motion]], [interior], [border] and
-// [repair] as in a scenario, and no other table; mesh, time and output stay empty. Throws as parse_scenario.
+// What moves a mesh that is there already, for set_up(scenario, mesh): [[body]], [[motion]], [interior],
+// [border] and [repair] as in a scenario, and no other table; mesh, time and output stay empty. Throws as
+// parse_scenario.
 Scenario parse_motions(std::string_view text, const std::filesystem::path& file);
 
 const char* to_string(BorderCondition condition);  // as a scenario has it

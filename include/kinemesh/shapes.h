@@ -3,7 +3,7 @@
 //
 // The same arguments give the same mesh: bit for bit with one C library (sines) and one CGAL (order of the
 // faces). Border edges run with the domain on their left. All throw InputError for too few vertices
-// (ShapeInfo::min_vertices).
+// (ShapeInfo::min_vertices), and for more than a mesh can have (kinemesh/mesh_data.h).
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace kinemesh {
 enum class SmoothingMethod {
   Laplacian,    // to the mean of the neighbours, or part of the way, where that makes the worst angle around
                 // the vertex better: "smart" [Freitag 1997]
-  Optimization  // to where the smallest angle around the vertex is largest (quality/optimal_point.h)
+  Optimization  // to where the smallest angle around the vertex is largest (untangle/places/optimal_point.h)
 };
 
 struct SmoothingOptions {

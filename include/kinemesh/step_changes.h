@@ -47,10 +47,10 @@ struct StepChanges {
   const Point& after(int vertex) const { return mesh.position(mesh.vertex_of_user(vertex)); }
 };
 
-// Called within a step when everything is known and nothing is final yet. One that throws vetoes the step: the
-// mesh goes back, bit for bit, to what it was, and the exception goes on to the caller of the step. Observers
-// called before it have then seen a step that never was, so those with a state of their own come last, or
-// change it after the step. Must not call the stepper.
+// Called within a step when everything is known and nothing is final yet. One that throws vetoes the step:
+// the mesh goes back, bit for bit, to what it was, and the exception goes on to the caller of the step.
+// Observers called before it have then seen a step that never was, so those with a state of their own come
+// last, or change it after the step. Must not call the stepper.
 using StepObserver = std::function<void(const StepChanges&)>;
 
 }  // namespace kinemesh

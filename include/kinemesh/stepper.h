@@ -34,8 +34,8 @@ struct StepperOptions {
   std::string quality = "none";     // a name make_quality knows
   double angle = 25.0;              // see AngleOptions; of quality "angles", as is
   VertexFreedom freedom = {};       // by the mesh's numbers
-  // Above it, the faces of the step's regions over all faces, both with padding, refuse the step. A limit that
-  // is finite takes memory for the whole mesh, as observers do.
+  // Above it, the faces of the step's regions over all faces, both with padding, refuse the step. A limit
+  // that is finite takes memory for the whole mesh, as observers do.
   double max_region_share = std::numeric_limits<double>::infinity();
   InteriorOptions interior = {};  // of step_border; a Motion brings its own
 };
@@ -73,18 +73,18 @@ struct StepOutcome {
 
 class Stepper {
  public:
-  // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy or quality,
-  // and for what "angles" refuses.
-  // time, steps_done: of an earlier stepper whose work this one goes on with. The first takes the mesh's memory
-  // where it can.
+  // Pre: the mesh is valid (validate(mesh) finds nothing). Throws InputError for an unknown strategy or
+  // quality, and for what "angles" refuses.
+  // time, steps_done: of an earlier stepper whose work this one goes on with. The first takes the mesh's
+  // memory where it can.
   explicit Stepper(Mesh&& mesh, const StepperOptions& options = {}, double time = 0.0, int steps_done = 0);
   explicit Stepper(const Mesh& mesh, const StepperOptions& options = {}, double time = 0.0,
                    int steps_done = 0)
       : Stepper(Mesh(mesh), options, time, steps_done) {}
 
-  // To given positions, one per user's vertex in the user's order; with quality "smooth" or "angles" or strategy
-  // "optimize" vertices may be elsewhere afterwards. Throws InputError for another number of them or a dt that is negative
-  // or not finite; mesh and time are then as they were, as after any other exception.
+  // To given positions, one per user's vertex in the user's order; with quality "smooth" or "angles" or
+  // strategy "optimize" vertices may be elsewhere afterwards. Throws InputError for another number of them or
+  // a dt that is negative or not finite; mesh and time are then as they were, as after any other exception.
   [[nodiscard]] StepOutcome step(std::span<const Point> positions, double dt);
 
   // By a motion from time() to time() + dt; `motion` was built on this stepper's initial mesh.
@@ -94,10 +94,11 @@ class Stepper {
   [[nodiscard]] StepOutcome step_to(const Motion& motion, double end_time);
   [[nodiscard]] StepOutcome step_to(std::span<const Point> positions, double end_time);
 
-  // To given positions of the border, or of some of it, one for each of `vertices` (the user's numbers); what of the
-  // border is not named stays, and so do fixed vertices that are not named; the interior follows (options.interior).
-  // Vertices of the interior may be named, too, and are then where they are asked to be, whatever the quality. Throws InputError for
-  // numbers that are no vertex's or come twice, other counts, and an interior that is told to follow nothing.
+  // To given positions of the border, or of some of it, one for each of `vertices` (the user's numbers); what
+  // of the border is not named stays, and so do fixed vertices that are not named; the interior follows
+  // (options.interior). Vertices of the interior may be named, too, and are then where they are asked to be,
+  // whatever the quality. Throws InputError for numbers that are no vertex's or come twice, other counts, and
+  // an interior that is told to follow nothing.
   [[nodiscard]] StepOutcome step_border(std::span<const int> vertices, std::span<const Point> positions,
                                         double dt);
   [[nodiscard]] StepOutcome step_border_to(std::span<const int> vertices, std::span<const Point> positions,
@@ -106,8 +107,8 @@ class Stepper {
   // Where a motion would have the vertices go, in the mesh's numbering: what step_to repairs.
   std::vector<Point> moved(const Motion& motion, double end_time);
 
-  // What the interior's next step starts from, for checkpoints; to be given to a stepper that goes on before its
-  // first step.
+  // What the interior's next step starts from, for checkpoints; to be given to a stepper that goes on before
+  // its first step.
   FollowingState following_state() const { return following_ ? following_->state() : start_; }
   void set_following_state(FollowingState state) { start_ = std::move(state); }
 
@@ -118,8 +119,8 @@ class Stepper {
   [[nodiscard]] StepOutcome repair(double dt = 0.0);
 
   // From now on called within each step that can be accepted, in the order of registration
-  // (kinemesh/step_changes.h). The first one takes memory for the whole mesh; what a step adds to its cost follows
-  // what it changes.
+  // (kinemesh/step_changes.h). The first one takes memory for the whole mesh; what a step adds to its cost
+  // follows what it changes.
   void observe(StepObserver observer);
 
   const Mesh& mesh() const { return mesh_; }

@@ -76,9 +76,9 @@ struct RepairOptions {
   bool retain = false;         // keep upright faces of a region that need not be replaced
   // Where the vertices came from, by the mesh's numbers: the mesh was valid there. Empty if nobody knows.
   std::span<const Point> before{};
-  // Where the faces' areas and angles go that detection sees before anything is rewritten; nobody wants them if
-  // null. What they know already must be true of the mesh before the move; where nothing has moved it spares
-  // detection a look.
+  // Where the faces' areas and angles go that detection sees before anything is rewritten; nobody wants them
+  // if null. What they know already must be true of the mesh before the move; where nothing has moved it
+  // spares detection a look.
   FaceMinima* minima = nullptr;
   const MovedBlocks* moved = nullptr;  // anything may have moved if null
 };
@@ -89,15 +89,15 @@ class Strategy {
 
   virtual std::string_view name() const = 0;
 
-  // True if repair() may write positions, of vertices that are not fixed and on no constrained edge. All others
-  // change connectivity only.
+  // True if repair() may write positions, of vertices that are not fixed and on no constrained edge. All
+  // others change connectivity only.
   virtual bool moves_vertices() const { return false; }
 
-  // Makes every face upright or changes nothing; does not throw but for lack of memory and for what a strategy
-  // says of itself. Each face that was rewritten is in `faces` of one of the record's regions and not in its
-  // `kept`: observers are told by these. Deterministic, whatever the number of threads. May keep scratch memory
-  // between calls; one object per thread. Pre: finite positions; the border of the padded mesh is convex, as
-  // hull_defect and follow (core/mesh/frame.h) keep it.
+  // Makes every face upright or changes nothing; does not throw but for lack of memory and for what a
+  // strategy says of itself. Each face that was rewritten is in `faces` of one of the record's regions and
+  // not in its `kept`: observers are told by these. Deterministic, whatever the number of threads. May keep
+  // scratch memory between calls; one object per thread. Pre: finite positions; the border of the padded mesh
+  // is convex, as hull_defect and follow (core/mesh/frame.h) keep it.
   [[nodiscard]] virtual RepairOutcome repair(Mesh& mesh, const RepairOptions& options) = 0;
 };
 

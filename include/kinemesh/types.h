@@ -12,8 +12,8 @@ using Point = glm::dvec2;             // user's length unit
 using Triangle = std::array<int, 3>;  // vertex numbers, counter-clockwise when upright
 using Edge = std::array<int, 2>;      // vertex numbers
 
-// Label of the faces that embed the domain in a convex set [Agarwal 2008, §1, boundary assumption]; never exported.
-// Every other int32 is a user's label.
+// Label of the faces that embed the domain in a convex set [Agarwal 2008, §1, boundary assumption]; never
+// exported. Every other int32 is a user's label.
 inline constexpr int padding_label = std::numeric_limits<int>::min();
 
 inline constexpr int none = -1;  // "no such vertex, face, edge or marker"

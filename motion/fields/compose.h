@@ -1,5 +1,5 @@
-// Fields made of fields. Motions add up and are restricted by themselves (kinemesh/motion.h); these serve where
-// one field is asked for.
+// Fields made of fields. Motions add up and are restricted by themselves (kinemesh/motion.h); these serve
+// where one field is asked for.
 #pragma once
 
 #include <vector>

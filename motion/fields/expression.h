@@ -13,7 +13,8 @@ namespace kinemesh {
 
 enum class FormulaIn : std::uint8_t { PlaceAndTime, Time };
 
-// One formula f(x, y, t), or f(t). May be evaluated from several threads at once: each has a parser of its own.
+// One formula f(x, y, t), or f(t). May be evaluated from several threads at once: each has a parser of its
+// own.
 class Formula {
  public:
   // key: the parameter it is the value of, for messages. Throws ParameterError that quotes the text and says

@@ -42,8 +42,8 @@ class Message {
   std::array<char, 512> text_{};
 };
 
-// Calls f(message), a function of the plug-in, and returns its reason if it fails, by a code or by throwing what
-// should not come through C.
+// Calls f(message), a function of the plug-in, and returns its reason if it fails, by a code or by throwing
+// what should not come through C.
 template <class F>
 std::string reason_of(const F& f) {
   Message message;

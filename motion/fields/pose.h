@@ -7,7 +7,8 @@
 
 namespace kinemesh {
 
-// x = c + R(angle)(X - c) + shift. More digits than a double has: a body's border is rounded once, at the end.
+// x = c + R(angle)(X - c) + shift. More digits than a double has: a body's border is rounded once, at the
+// end.
 struct Pose {
   long double angle = 0.0L;  // radians, counter-clockwise
   long double x = 0.0L, y = 0.0L;

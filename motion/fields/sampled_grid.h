@@ -16,8 +16,9 @@ struct GridSamples {
   std::vector<Point> velocity;  // by time, then y, then x
 };
 
-// One row per sample: t,x,y,u,v or, for a steady field, x,y,u,v; see docs/formats.md. Throws InputError naming
-// file and line: not a row of numbers, a row of another length, two rows for one place and time, one missing.
+// One row per sample: t,x,y,u,v or, for a steady field, x,y,u,v; see docs/formats.md. Throws InputError
+// naming file and line: not a row of numbers, a row of another length, two rows for one place and time, one
+// missing.
 GridSamples parse_grid(std::string_view text, const std::string& file);
 
 // Bilinear between the four samples around a place, linear between two times: continuous, and exact for

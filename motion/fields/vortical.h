@@ -1,5 +1,6 @@
-// Vortices: point vortices, and such that live in a box. On the unit square they are as published; a box of another size maps to it,
-// and velocities grow with the box, so that the same times give the same motion relative to the box.
+// Vortices: point vortices, and such that live in a box. On the unit square they are as published; a box of
+// another size maps to it, and velocities grow with the box, so that the same times give the same motion
+// relative to the box.
 #pragma once
 
 #include <vector>
@@ -69,8 +70,8 @@ class Twist final : public VelocityField {
   double period_;  // T > 0
 };
 
-// Point vortices that stay where they are, smoothed by a core: v = sum of s_i / (2 pi) (-(y - y_i), x - x_i) /
-// (|x - p_i|^2 + core^2) [Krasny 1987]. Counter-clockwise for s > 0; fastest, s / (4 pi core), at the
+// Point vortices that stay where they are, smoothed by a core: v = sum of s_i / (2 pi) (-(y - y_i), x - x_i)
+// / (|x - p_i|^2 + core^2) [Krasny 1987]. Counter-clockwise for s > 0; fastest, s / (4 pi core), at the
 // distance `core`; that of s / (2 pi r) far away. Free of divergence, steady.
 class PointVortices final : public VelocityField {
  public:

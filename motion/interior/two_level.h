@@ -15,8 +15,8 @@
 
 namespace kinemesh {
 
-// Coarse unknowns are the blocks of motion/interior/vertex_blocks.h, once for both coordinates where the matrix is the
-// same for both and does not mix them, and else twice.
+// Coarse unknowns are the blocks of motion/interior/vertex_blocks.h, once for both coordinates where the
+// matrix is the same for both and does not mix them, and else twice.
 class CoarseLevel {
  public:
   // Finds which blocks are neighbours. In all threads, but for the ordering of the matrix: O(n / 32) times a

@@ -8,8 +8,8 @@
 
 namespace kinemesh::cli {
 
-// Both take `opposite` as pair_sides (core/mesh/sides.h) gives it: side 3 f + k runs from corner k of face f to
-// the next.
+// Both take `opposite` as pair_sides (core/mesh/sides.h) gives it: side 3 f + k runs from corner k of face f
+// to the next.
 
 // Classes under "shares an edge with" of the faces that are `in`; one flag per face.
 int count_parts(std::span<const int> opposite, const std::vector<bool>& in);

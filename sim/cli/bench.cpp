@@ -122,8 +122,8 @@ std::vector<Scenario> scenarios_of(const BenchArguments& arguments, const Sweep&
   return all;
 }
 
-// The first one as it is to be run; the others are set up once for nothing, as what is wrong with them has to be said
-// before the first file is written.
+// The first one as it is to be run; the others are set up once for nothing, as what is wrong with them has to
+// be said before the first file is written.
 SetUp check_all(std::span<const Scenario> scenarios) {
   for (const Scenario& scenario : scenarios.subspan(1)) (void)set_up(scenario);
   return set_up(scenarios.front());

@@ -9,9 +9,10 @@
 
 namespace kinemesh::cli {
 
-// Makes the folder, locks it, and removes the files of a former benchmark, its report among them. Throws InputError,
-// changing nothing: not a folder; another process writes to it; a file with a name of ours is there and `force` is
-// not given, or is no regular file, not a benchmark's (by its first line), or an input of one of the scenarios.
+// Makes the folder, locks it, and removes the files of a former benchmark, its report among them. Throws
+// InputError, changing nothing: not a folder; another process writes to it; a file with a name of ours is
+// there and `force` is not given, or is no regular file, not a benchmark's (by its first line), or an input
+// of one of the scenarios.
 FolderLock open_bench_directory(const std::filesystem::path& directory, std::span<const Scenario> scenarios,
                                 bool force);
 

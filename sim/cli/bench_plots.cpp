@@ -35,8 +35,9 @@ std::optional<double> number_in(const std::string& text) {
 
 constexpr std::size_t most_text = 200;  // characters of a title or name
 
-// Within single quotes gnuplot reads neither backslashes nor backquotes, which would start a command. Single quotes are
-// joined to the rest: written twice, as its manual says, gnuplot 5.4 takes several of them for the end.
+// Within single quotes gnuplot reads neither backslashes nor backquotes, which would start a command. Single
+// quotes are joined to the rest: written twice, as its manual says, gnuplot 5.4 takes several of them for the
+// end.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : printable(text, most_text)) result += c == '\'' ? "'.\"'\".'" : std::string{c};

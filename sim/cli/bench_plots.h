@@ -23,8 +23,8 @@ struct Curve {
   std::vector<std::pair<double, double>> points;
 };
 
-// Gathers what is drawn, but for strategies that replace everything (sizes, exploring) and rounds without valid mesh; of
-// more curves or points than can be told apart one of every so many:
+// Gathers what is drawn, but for strategies that replace everything (sizes, exploring) and rounds without
+// valid mesh; of more curves or points than can be told apart one of every so many:
 //   steps     time of each step, without the move; with a sweep over numbers instead
 //   sweep     median time of a step against the swept key
 //   sizes     how many regions have how many faces
@@ -38,8 +38,9 @@ class BenchPlots {
   void add(const Round& round, const std::string& value);
   void add(const BoundSample& sample);
 
-  // Writes scripts, `plots`/NAME.gp, and pictures beside them. Nothing to draw, no plot. Returns what the user should
-  // know: where they are, or what is missing to make them. Throws InputError where a script cannot be written.
+  // Writes scripts, `plots`/NAME.gp, and pictures beside them. Nothing to draw, no plot. Returns what the
+  // user should know: where they are, or what is missing to make them. Throws InputError where a script
+  // cannot be written.
   std::string write(const std::filesystem::path& directory) const;
 
  private:

@@ -13,13 +13,14 @@ namespace kinemesh::cli {
 enum ExitCode : int {
   done = 0,
   not_valid =
-      1,  // the mesh is not valid; no valid mesh exists; or the run had to stop, be it for lack of resources
+      1,  // the mesh is not valid; no valid mesh exists; or the run had to stop, be it for a full disk
   bad_input = 2,  // a file or the command line is wrong; nothing was written
-  failed = 3,     // an internal error; or the machine lacks what a command other than run takes
+  lacking = 3,    // memory has run out; or the machine lacks what a command other than run takes
+  internal = 4,   // a mistake of kinemesh
 };
 
-// Returns the exit code. Errors are exceptions: InputError for bad input, before anything is written; ResourceError
-// and bad_alloc for what the machine lacks; others are internal.
+// Returns the exit code. Errors are exceptions: InputError for bad input, before anything is written;
+// ResourceError and bad_alloc for what the machine lacks; others are internal.
 using Action = std::function<int()>;
 
 void add_list(CLI::App& program, Action& action);

@@ -15,7 +15,8 @@ void print_error(const std::string& message);
 // "kinemesh: note: MESSAGE".
 void print_note(const std::string& message);
 
-// A line of a table or summary on stdout, made printable. Throws std::system_error where it cannot be written.
+// A line of a table or summary on stdout, made printable. Throws std::system_error where it cannot be
+// written.
 void print_line(const std::string& line);
 
 // A word for the user's shell that reads as `text`, whatever is in it.

@@ -1,7 +1,7 @@
-// Operator new for a whole program: big arrays come in large pages where the system has them. A mesh is read in
-// no order where it is tangled; without large pages the table that leads to them misses as often as the
-// cache does. Libraries do not link this: who embeds one decides for himself (docs/embedding.md). Sanitizers bring
-// an operator new of their own, which has more to do.
+// Operator new for a whole program: big arrays come in large pages where the system has them. A mesh is read
+// in no order where it is tangled; without large pages the table that leads to them misses as often as the
+// cache does. Libraries do not link this: who embeds one decides for himself (docs/embedding.md). Sanitizers
+// bring an operator new of their own, which has more to do.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

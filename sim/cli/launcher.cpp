@@ -12,8 +12,8 @@
 namespace kinemesh::cli {
 namespace {
 
-// What launchers tell the processes they start: their number, and which of them one is. SLURM_NTASKS is none of
-// these: sbatch sets it for its script, which is one process.
+// What launchers tell the processes they start: their number, and which of them one is. SLURM_NTASKS is none
+// of these: sbatch sets it for its script, which is one process.
 struct Variables {
   const char *size, *rank;
   const char* unless = "";  // set in a shell that has been started so, whose commands are single processes

@@ -1,4 +1,5 @@
-// mpirun and its like: programs that start several processes of this one, which would all write the same files.
+// mpirun and its like: programs that start several processes of this one, which would all write the same
+// files.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,8 @@ struct Launch {
 // What the environment tells; nothing where this process is the only one, or none knows.
 std::optional<Launch> find_launch();
 
-// Whether the chosen command writes files, but this is one of several processes. The first of them says so on stderr.
+// Whether the chosen command writes files, but this is one of several processes. The first of them says so on
+// stderr.
 bool refuse_several(const CLI::App& program);
 
 }  // namespace kinemesh::cli

@@ -64,8 +64,8 @@ int answer_to(const CLI::App& program, const CLI::ParseError& error) {
   return bad_input;
 }
 
-// Output that did not arrive (a full disk behind a redirection) must not look like success. lack: what the command
-// returns for a lack of resources.
+// Output that did not arrive (a full disk behind a redirection) must not look like success. lack: what the
+// command returns for a lack of resources other than memory.
 int after_flush(int code, int lack) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   print_error("cannot write to standard output");
@@ -82,13 +82,13 @@ int perform(const Action& action, int lack) try {
   return lack;
 } catch (const std::bad_alloc&) {
   print_error("out of memory");
-  return lack;
+  return lacking;
 } catch (const std::system_error& error) {  // by fmt::print, for one
   print_error(std::ferror(stdout) != 0 ? "cannot write to standard output" : error.what());
   return lack;
 } catch (const std::exception& error) {
   print_error(fmt::format("internal error: {}", error.what()));
-  return failed;
+  return internal;
 }
 
 int run_program(int argc, char** argv) {
@@ -98,8 +98,8 @@ int run_program(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(
       "Exit codes: 0 done; 1 the mesh is not valid, or no valid mesh exists, or the run had to stop;\n"
-      "2 bad input or usage, and nothing was written; 3 internal error, or lack of resources in other\n"
-      "commands than run.");
+      "2 bad input or usage, and nothing was written; 3 memory has run out, or in other commands than\n"
+      "run another resource; 4 internal error.");
   add_run(program, action, {argv, argv + argc});
   add_replay(program, action);
   add_bench(program, action);
@@ -112,10 +112,10 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return after_flush(answer_to(program, error), failed);
+    return after_flush(answer_to(program, error), lacking);
   }
   if (refuse_several(program)) return bad_input;
-  return perform(action, program.got_subcommand("run") ? not_valid : failed);
+  return perform(action, program.got_subcommand("run") ? not_valid : lacking);
 }
 
 }  // namespace

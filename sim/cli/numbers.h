@@ -1,5 +1,5 @@
-// Numbers on the command line, for CLI::Option::transform. CLI11 itself takes nan for a number of any range, nothing for
-// 0, and 010 for 8.
+// Numbers on the command line, for CLI::Option::transform. CLI11 itself takes nan for a number of any range,
+// nothing for 0, and 010 for 8.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -182,6 +182,18 @@ std::string how_to_go_on(const RunSummary& summary) {
                      shell_word(folder));
 }
 
+ExitCode code_of(StopCause cause) {
+  switch (cause) {
+    case StopCause::Memory:
+      return lacking;
+    case StopCause::Bug:
+      return internal;
+    case StopCause::Other:
+      break;
+  }
+  return not_valid;
+}
+
 int run_scenario(const RunArguments& arguments) {
   Scenario scenario = load_scenario(arguments.scenario, arguments.overrides);
   scenario.mesh.split_quads |= arguments.split_quads;
@@ -201,7 +213,7 @@ int run_scenario(const RunArguments& arguments) {
   if (!summary.stopped) return done;
   std::fflush(stdout);
   print_error(fmt::format("{}: {}{}", arguments.scenario, *summary.stopped, how_to_go_on(summary)));
-  return not_valid;
+  return code_of(summary.stop_cause);
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ class Overlay {
     edges_tree_.build(boxes);
   }
 
-  // A cell of the deepest is a whole face, or has a corner where two edges cross; then it is one of the four there.
+  // A cell of the deepest is a whole face, or has a corner where two edges cross; then it is one of the four
+  // there.
   void measure(BoundSample& sample) const {
     for (const int face : faces_) sample.depth = std::max(sample.depth, depth_within(face));
     for (std::size_t i = 0; i < edges_.size(); ++i) add_crossings(i, sample);

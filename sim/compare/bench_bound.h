@@ -1,4 +1,5 @@
-// Local explorations of a tangled mesh, one by one, beside what bounds their time [Agarwal 2008, Theorem 4.4].
+// Local explorations of a tangled mesh, one by one, beside what bounds their time [Agarwal 2008, Theorem
+// 4.4].
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace kinemesh {
 
-// Of one seed, whose exploration ended with the region R*. d and k are found in rounded arithmetic: nothing depends on
-// them.
+// Of one seed, whose exploration ended with the region R*. d and k are found in rounded arithmetic: nothing
+// depends on them.
 struct BoundSample {
   int seed = none;                // user's number; none in padding
   int upright = 0, inverted = 0;  // n+, n-: faces of R*

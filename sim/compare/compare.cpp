@@ -105,12 +105,12 @@ class Contest {
   // Whose mesh the common positions are of where the interior follows.
   Competitor& leader() { return competitors_[leader_]; }
 
-  // As far as its positions are finite.
+  // Unless its frame cannot follow; the step then says so.
   void show_tangled(int step, const TangledMeshViewer& view) {
     move(step);
     Mesh tangled = competitors_.front().mesh();
     auto positions = next_;
-    follow(tangled, positions);
+    if (follow(tangled, positions)) return;
     tangled.swap_positions(positions);
     view(step, tangled);
   }

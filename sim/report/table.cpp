@@ -15,7 +15,8 @@ namespace {
 // More than any log has; what a record takes is bounded with it.
 constexpr std::size_t most_columns = 4096;
 
-// The records of a CSV file [Shafranovich 2005]: fields in quotes may hold commas, line ends, and quotes written twice.
+// The records of a CSV file [Shafranovich 2005]: fields in quotes may hold commas, line ends, and quotes
+// written twice.
 class Records {
  public:
   Records(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}

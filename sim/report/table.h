@@ -21,8 +21,8 @@ struct Table {
 
 double number_of(std::string_view field);  // NaN where it is none
 
-// As [Shafranovich 2005]. The first record names the columns; none may be missing of those `required`. A last record that
-// is not whole, as a killed run may leave it, is left out. Throws InputError with file and line.
+// As [Shafranovich 2005]. The first record names the columns; none may be missing of those `required`. A last
+// record that is not whole, as a killed run may leave it, is left out. Throws InputError with file and line.
 Table read_table(
     const std::filesystem::path& file, const std::vector<std::string>& required,
     const std::function<bool(const std::string&)>& is_text = [](const std::string&) { return false; });

@@ -8,8 +8,8 @@
 namespace kinemesh {
 
 // All there is to remember between steps. Position and length count in steps of the scenario's dt and are
-// exact: multiples of a power of two, and such a power. So the times of steps that were never halved are those
-// of a run without adaptive steps, bit for bit.
+// exact: multiples of a power of two, and such a power. So the times of steps that were never halved are
+// those of a run without adaptive steps, bit for bit.
 struct AdaptiveState {
   double position = 0.0;  // time reached
   double length = 1.0;    // of the next step, before it is shortened to the end

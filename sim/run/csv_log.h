@@ -47,8 +47,8 @@ class StepLog {
   explicit StepLog(const std::filesystem::path& directory);
   StepLog(const std::filesystem::path& directory, const LogLengths& lengths);  // drops what comes behind them
 
-  // One row in steps.csv, for rejected steps, too; one per region in regions.csv, which of a rejected step are
-  // none, as they were not replaced.
+  // One row in steps.csv, for rejected steps, too; one per region in regions.csv, which of a rejected step
+  // are none, as they were not replaced.
   void write(const StepRecord& record);
 
   void flush();

@@ -32,9 +32,9 @@ FailedStep failed_step(Stepper& stepper, const Motion& motion, double end_time);
 // The mesh before the step.
 Mesh mesh_before(const FailedStep& step);
 
-// Does it again, without motion: what the run had said, or would have gone on with if this version finds a valid mesh,
-// quality included. Throws InputError for a mesh that cannot be made or does not go with the options, and what the
-// repair threw.
+// Does it again, without motion: what the run had said, or would have gone on with if this version finds a
+// valid mesh, quality included. Throws InputError for a mesh that cannot be made or does not go with the
+// options, and what the repair threw.
 StepOutcome replay(const FailedStep& step);
 
 // As a file's content; see docs/formats.md.

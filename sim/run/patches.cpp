@@ -181,7 +181,8 @@ void PatchesReader::check(const PatchesStep& step) {
          (step.moved.empty() && !step.positions.empty() ? start_.points.size() : step.moved.size()));
   expect(std::ranges::all_of(step.positions, is_finite));
   expect(std::ranges::all_of(step.moved, [n](int v) { return 0 <= v && v < n; }));
-  // Frame corners are none; padding faces are numbered behind the domain's, as many as a planar mesh can have.
+  // Frame corners are none; padding faces are numbered behind the domain's, as many as a planar mesh can
+  // have.
   const auto is_face = [n](int f) { return 0 <= f && f < 2 * n + 16; };
   const auto is_triangle = [n](const Triangle& t) {
     return std::ranges::all_of(t, [n](int v) { return none <= v && v < n; });

@@ -38,8 +38,8 @@ struct PatchesStep {
   std::vector<FacePatch> patches;
 };
 
-// How long a folder's patches.bin is up to the end of a step; reads all of it up to there. Throws InputError if the
-// step is not in it.
+// How long a folder's patches.bin is up to the end of a step; reads all of it up to there. Throws InputError
+// if the step is not in it.
 std::uint64_t patches_length_up_to(const std::filesystem::path& directory, int step);
 
 class PatchesWriter {

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <exception>
+#include <new>
+#include <stdexcept>
 
 #include "core/base/stopwatch.h"
 #include "core/io/atomic_file.h"
@@ -68,7 +70,14 @@ std::optional<Resumption> resumption_of(const Scenario& scenario, const std::fil
 
 // What a failure that ends a run is called.
 std::string reason_of(const std::exception& error) {
-  return dynamic_cast<const std::bad_alloc*>(&error) ? "out of memory" : error.what();
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return "out of memory";
+  return (dynamic_cast<const std::logic_error*>(&error) ? "internal error: " : "") +
+         std::string(error.what());
+}
+
+StopCause cause_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return StopCause::Memory;
+  return dynamic_cast<const std::logic_error*>(&error) ? StopCause::Bug : StopCause::Other;
 }
 
 // Of a step that nothing but another scenario helps.
@@ -132,8 +141,8 @@ class Runner {
   }
 
  private:
-  // Of a run in a folder that was empty, or another run's: that makes way. From here on the folder holds no run that
-  // is done, and each file that is there at any moment is listed.
+  // Of a run in a folder that was empty, or another run's: that makes way. From here on the folder holds no
+  // run that is done, and each file that is there at any moment is listed.
   static RunJson started(const Scenario& scenario, const RunOptions& options, const RunPlan& plan) {
     const auto& directory = plan.directory;
     auto files = files_of_run(directory);
@@ -172,12 +181,13 @@ class Runner {
     try {
       f();
     } catch (const std::exception& error) {
-      if (!summary_.stopped) stop(reason_of(error), true);
+      if (!summary_.stopped) stop(reason_of(error), true, cause_of(error));
     }
   }
 
-  void stop(const std::string& why, bool can_resume) {
+  void stop(const std::string& why, bool can_resume, StopCause cause = StopCause::Other) {
     summary_.stopped = why;
+    summary_.stop_cause = cause;
     summary_.can_resume = can_resume;
   }
 
@@ -196,7 +206,8 @@ class Runner {
            true);
   }
 
-  // Its row stays in the log only behind that of the next accepted step: on resuming, the step is tried again.
+  // Its row stays in the log only behind that of the next accepted step: on resuming, the step is tried
+  // again.
   void reject(const StepOutcome& outcome, double end_time) {
     const bool has_half = steps_.reject();
     summary_.rejected = steps_.state().rejected;
@@ -367,6 +378,7 @@ RunSummary go(const Scenario& scenario, const RunOptions& options, RunObserver& 
     RunSummary summary;
     summary.plan = plan;
     summary.stopped = reason_of(error);
+    summary.stop_cause = cause_of(error);
     summary.can_resume = holds_scenario(plan.directory, scenario);
     return summary;
   }

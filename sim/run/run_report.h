@@ -15,16 +15,16 @@ void add_step(RunSummary& summary, const StepRecord& record, int n_faces);
 
 enum class RunState { Running, Done, Stopped };
 
-// run.json, whole or not at all: who ran what with which program, how far it came, and which files of the folder
-// are its own (sim/run/run_directory.h). The only file with dates in it.
+// run.json, whole or not at all: who ran what with which program, how far it came, and which files of the
+// folder are its own (sim/run/run_directory.h). The only file with dates in it.
 class RunJson {
  public:
   // files: those in the folder that are the run's own already, or of the run it replaces.
   RunJson(const std::filesystem::path& directory, const Scenario& scenario, const RunOptions& options,
           std::set<std::string> files);
 
-  // Throw ResourceError or InputError naming the file. Once the run is done, names of files that are not there
-  // are left out.
+  // Throw ResourceError or InputError naming the file. Once the run is done, names of files that are not
+  // there are left out.
   void write(const RunSummary& summary, RunState state);
   void claim(
       std::initializer_list<std::string> names);  // before files of these names are made; after a write()

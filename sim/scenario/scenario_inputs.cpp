@@ -49,7 +49,8 @@ void ScenarioInputs::add_series(const fs::path& file) try {
 } catch (const InputError&) {
 }
 
-// Plug-ins read files under names of their own choice: relative to the scenario, or to where the program runs.
+// Plug-ins read files under names of their own choice: relative to the scenario, or to where the program
+// runs.
 void ScenarioInputs::add_named(const std::string& text, const fs::path& folder) {
   for (const fs::path& file : {folder / text, fs::path(text)}) {
     add(file);

@@ -12,8 +12,8 @@
 
 namespace kinemesh {
 
-// The scenario, its mesh, and what its motions read: tables, libraries, series with the meshes they name, and any
-// file that a text parameter is the name of.
+// The scenario, its mesh, and what its motions read: tables, libraries, series with the meshes they name, and
+// any file that a text parameter is the name of.
 class ScenarioInputs {
  public:
   explicit ScenarioInputs(const Scenario& scenario);

@@ -32,8 +32,8 @@ bool is_control(char c) {
   return (c >= 0 && c < ' ') || c == 127;
 }
 
-// In single quotes as it is, or in double ones with escapes where it has single quotes or control characters. Always
-// in one line.
+// In single quotes as it is, or in double ones with escapes where it has single quotes or control characters.
+// Always in one line.
 std::string to_text(const std::string& text) {
   if (text.find('\'') == std::string::npos && std::ranges::none_of(text, is_control)) return "'" + text + "'";
   std::string escaped;

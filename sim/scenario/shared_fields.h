@@ -9,8 +9,8 @@
 
 namespace kinemesh {
 
-// Motions with the same field and parameters share it, as fields are pure functions: so a file that many of them
-// name is read once, and is in memory once.
+// Motions with the same field and parameters share it, as fields are pure functions: so a file that many of
+// them name is read once, and is in memory once.
 class SharedFields {
  public:
   AnyField of(const MotionSpec& motion);  // throws what make_field does

@@ -83,7 +83,8 @@ class TomlText {
     skip_comment();  // and the closing brackets
   }
 
-  // Names with dots between, of which the last one is in the place returned, or has its path if it is a table.
+  // Names with dots between, of which the last one is in the place returned, or has its path if it is a
+  // table.
   Place read_key(Place place) {
     std::size_t begin = at_;
     int names = 1;

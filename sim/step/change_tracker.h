@@ -11,8 +11,8 @@
 
 namespace kinemesh {
 
-// Holds a copy of all faces, 48 bytes each, and keeps it up to date at a cost that follows what changes. Works for
-// whatever rewrites faces, if it says which.
+// Holds a copy of all faces, 48 bytes each, and keeps it up to date at a cost that follows what changes.
+// Works for whatever rewrites faces, if it says which.
 class ChangeTracker {
  public:
   explicit ChangeTracker(const Mesh& mesh);

@@ -22,9 +22,9 @@ std::string exact_text(double value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-// Every defect tells the time; what moves vertices out of this world tells it itself.
+// Every defect tells the time; what moves vertices, but not the frame, out of this world tells it itself.
 void add_time(Defect& defect, double time) {
-  if (defect.kind == DefectKind::NonFinitePosition) return;
+  if (defect.kind == DefectKind::NonFinitePosition && defect.vertices.front() != none) return;
   if (!defect.detail.empty()) defect.detail += ", ";
   defect.detail += "at time " + exact_text(time);
 }
@@ -141,8 +141,8 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   interior_ms_ = 0.0;
   has_followed_ = false;
   outcome.defect = move(std::span<Point>(next_));
+  if (!outcome.defect) outcome.defect = kinemesh::follow(mesh_, next_);
   if (!outcome.defect) {
-    kinemesh::follow(mesh_, next_);
     moved_.find(mesh_.positions(), next_);
     outcome.defect = hull_defect(mesh_, next_);
   }
@@ -249,8 +249,8 @@ void Stepper::measure(StepOutcome& outcome) {
   record.measure_ms = clock.milliseconds();
 }
 
-// Cannot fail, and is undone by observers only. The initial mesh may have any shape, so the first step looks at
-// all of it; next_ holds the positions before the step.
+// Cannot fail, and is undone by observers only. The initial mesh may have any shape, so the first step looks
+// at all of it; next_ holds the positions before the step.
 void Stepper::improve(RepairRecord& record) {
   const Stopwatch clock;
   const auto before = step_ == 0 ? std::span<const Point>() : std::span<const Point>(next_);

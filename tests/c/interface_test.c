@@ -130,7 +130,8 @@ static void moves_a_border_and_what_is_inside_follows(void) {
   kinemesh_stepper_destroy(stepper);
 }
 
-/* Around a hole of radius 1, up to radius 3: rings of vertices, those of the hole first; markers hole and rim. */
+/* Around a hole of radius 1, up to radius 3: rings of vertices, those of the hole first; markers hole and
+ * rim. */
 enum { around = 16, rings = 5, n_ring = around * rings, n_ring_faces = 2 * around * (rings - 1) };
 
 static kinemesh_mesh* ring(void) {
@@ -278,7 +279,7 @@ static void leaves_everything_as_it_was_when_bodies_cannot_move(void) {
     const char *path, *told;
     kinemesh_status status;
   } cases[] = {{"9 * t", "crosses", KINEMESH_NO_VALID_MESH},
-               {"t < 0.25 ? t : sqrt(-1)", "body marker:hole", KINEMESH_NO_VALID_MESH}};
+               {"t < 0.25 ? t : sqrt(-1)", "body marker:hole", KINEMESH_BAD_INPUT}};
   kinemesh_stepper* stepper;
   double before[2 * n_ring], xy[2 * n_ring];
   int32_t faces[3 * n_ring_faces], now[3 * n_ring_faces];
@@ -332,6 +333,62 @@ static void leaves_everything_as_it_was_when_it_fails(void) {
   CHECK(memcmp(xy, points, sizeof points) == 0 && memcmp(now, triangles, sizeof triangles) == 0);
   CHECK(kinemesh_stepper_time(stepper) == 0);
   kinemesh_stepper_destroy(stepper);
+}
+
+/* The triangle 4 5 6 turned inside out, its sides to be kept: no edge may flip, no vertex move, but there is
+ * a mesh. */
+static kinemesh_mesh* square_with_lines(const double* xy) {
+  static const int32_t lines[] = {4, 5, 5, 6, 6, 4};
+  kinemesh_mesh* mesh = NULL;
+  CHECK(kinemesh_mesh_create(n_vertices, xy, n_faces, triangles, NULL, &mesh) == KINEMESH_OK);
+  CHECK(kinemesh_mesh_add_marker(mesh, "line", 3, lines) == KINEMESH_OK);
+  return mesh;
+}
+
+static void tells_stuck_from_impossible(void) {
+  static const char* const strategies[] = {"flips", "optimize"};
+  kinemesh_options options = kinemesh_default_options();
+  kinemesh_mesh* mesh;
+  kinemesh_stepper* stepper;
+  double turned[2 * n_vertices], xy[2 * n_vertices], nowhere[2 * n_vertices];
+  int i;
+  memcpy(turned, points, sizeof points);
+  turned[13] = 0.5;
+  for (i = 0; i < 2; ++i) {
+    mesh = square_with_lines(turned);
+    CHECK(kinemesh_mesh_untangle(mesh, strategies[i]) == KINEMESH_STUCK);
+    CHECK(strstr(kinemesh_error(), "stuck"));
+    CHECK(kinemesh_mesh_untangle(mesh, "global") == KINEMESH_OK);
+    kinemesh_mesh_destroy(mesh);
+
+    options.strategy = strategies[i];
+    stepper = stepper_on(square_with_lines(points), &options);
+    CHECK(kinemesh_stepper_step(stepper, turned, 1, NULL) == KINEMESH_STUCK);
+    CHECK(strstr(kinemesh_error(), "stuck"));
+    CHECK(kinemesh_stepper_get(stepper, xy, NULL, NULL) == KINEMESH_OK);
+    CHECK(memcmp(xy, points, sizeof points) == 0 && kinemesh_stepper_time(stepper) == 0);
+    kinemesh_stepper_destroy(stepper);
+  }
+
+  stepper = stepper_on(square(), NULL);
+  memcpy(nowhere, points, sizeof points);
+  nowhere[12] = sqrt(-1.0);
+  CHECK(kinemesh_stepper_step(stepper, nowhere, 1, NULL) == KINEMESH_BAD_INPUT);
+  CHECK(strstr(kinemesh_error(), "vertex 6"));
+  nowhere[12] = HUGE_VAL;
+  CHECK(kinemesh_stepper_step(stepper, nowhere, 1, NULL) == KINEMESH_BAD_INPUT);
+  check_upright(stepper);
+  kinemesh_stepper_destroy(stepper);
+}
+
+/* Before the arrays are looked at. */
+static void refuses_more_than_numbers_go(void) {
+  kinemesh_mesh* mesh = NULL;
+  const int32_t most = (1 << 28) - 1;
+  CHECK(kinemesh_mesh_create(n_vertices, points, most + 1, triangles, NULL, &mesh) == KINEMESH_BAD_INPUT);
+  CHECK(strstr(kinemesh_error(), "268435455") && mesh == NULL);
+  CHECK(kinemesh_mesh_create(INT32_MAX, points, n_faces, triangles, NULL, &mesh) == KINEMESH_BAD_INPUT);
+  CHECK(strstr(kinemesh_error(), "268435455") && mesh == NULL);
 }
 
 static void refuses_what_is_no_mesh(void) {
@@ -402,6 +459,8 @@ int main(int argc, char** argv) {
   refuses_scenarios_with_the_line_and_the_key();
   leaves_everything_as_it_was_when_bodies_cannot_move();
   leaves_everything_as_it_was_when_it_fails();
+  tells_stuck_from_impossible();
+  refuses_more_than_numbers_go();
   refuses_what_is_no_mesh();
   keeps_markers_and_labels(argv[1]);
   return 0;

@@ -1,4 +1,5 @@
-"""The C interface from Python: ctypes and any buffer of doubles; nothing but Python's own library, numpy where it is."""
+"""The C interface from Python: ctypes and any buffer of doubles; nothing but Python's own library, numpy
+where it is."""
 
 import ctypes
 import math
@@ -17,24 +18,26 @@ except ImportError:
 LIBRARY = ctypes.CDLL(os.environ["KINEMESH_LIBRARY"])
 LIBRARY.kinemesh_error.restype = ctypes.c_char_p
 LIBRARY.kinemesh_stepper_positions.restype = POINTER(c_double)
-OK, NO_VALID_MESH, BAD_INPUT, _, VETOED = range(5)
+OK, NO_VALID_MESH, BAD_INPUT, _, VETOED, _, _, STUCK = range(8)
 
 
 class Patch(ctypes.Structure):
     _fields_ = [("n_faces", c_int32), ("faces", POINTER(c_int32)), ("before", POINTER(c_int32)),
-                ("after", POINTER(c_int32)), ("labels_before", POINTER(c_int32)), ("labels_after", POINTER(c_int32)),
-                ("n_vertices", c_int32), ("vertices", POINTER(c_int32))]
+                ("after", POINTER(c_int32)), ("labels_before", POINTER(c_int32)),
+                ("labels_after", POINTER(c_int32)), ("n_vertices", c_int32), ("vertices", POINTER(c_int32))]
 
 
 class Changes(ctypes.Structure):
     _fields_ = [("step", c_int32), ("time", c_double), ("dt", c_double), ("n_patches", c_int32),
-                ("patches", POINTER(Patch)), ("xy_before", POINTER(c_double)), ("xy_after", POINTER(c_double)),
-                ("n_moved", c_int32), ("moved", POINTER(c_int32)), ("xy_moved", POINTER(c_double))]
+                ("patches", POINTER(Patch)), ("xy_before", POINTER(c_double)),
+                ("xy_after", POINTER(c_double)), ("n_moved", c_int32), ("moved", POINTER(c_int32)),
+                ("xy_moved", POINTER(c_double))]
 
 
 class Step(ctypes.Structure):
     _fields_ = [("step", c_int32), ("time", c_double), ("dt", c_double),
-                *((name, c_int32) for name in ("n_faces", "inverted", "flat", "regions", "replaced", "flips", "moves")),
+                *((name, c_int32)
+                  for name in ("n_faces", "inverted", "flat", "regions", "replaced", "flips", "moves")),
                 ("min_angle_deg", c_double), ("min_area", c_double)]
 
 
@@ -135,13 +138,28 @@ class Interface(unittest.TestCase):
         self.assertEqual(step(stepper, address(moved, c_double), c_double(1), None), NO_VALID_MESH)
         self.assertIn(b"11", LIBRARY.kinemesh_error())
         self.assertEqual(step(stepper, address(moved, c_double), c_double(-1), None), BAD_INPUT)
+        moved[24] = math.nan
+        self.assertEqual(step(stepper, address(moved, c_double), c_double(1), None), BAD_INPUT)
         self.assertEqual(self.faces(stepper), triangles)
+
+    def test_stuck_is_not_impossible(self):
+        """A triangle turned inside out, its sides to be kept: no edge may flip, but there is a mesh."""
+        xy = array("d", (0, 0, 3, 0, 3, 3, 0, 3, 1, 1, 2, 1, 1.5, 0.5))
+        triangles = array("i", (4, 5, 6, 0, 1, 5, 0, 5, 4, 1, 2, 5, 2, 6, 5, 2, 3, 6, 3, 0, 4, 3, 4, 6))
+        mesh, lines = c_void_p(), array("i", (4, 5, 5, 6, 6, 4))
+        self.call("mesh_create", 7, address(xy, c_double), 8, address(triangles, c_int32), None,
+                  ctypes.byref(mesh))
+        self.addCleanup(LIBRARY.kinemesh_mesh_destroy, mesh)
+        self.call("mesh_add_marker", mesh, b"line", 3, address(lines, c_int32))
+        self.assertEqual(LIBRARY.kinemesh_mesh_untangle(mesh, b"flips"), STUCK)
+        self.call("mesh_untangle", mesh, b"global")
 
     def test_positions_in_place(self):
         points, triangles = grid(4)
         stepper = self.stepper(points, triangles)
         own = LIBRARY.kinemesh_stepper_positions(stepper)
-        view = memoryview((c_double * len(points)).from_address(ctypes.addressof(own.contents))).cast("B").cast("d")
+        all_of_it = (c_double * len(points)).from_address(ctypes.addressof(own.contents))
+        view = memoryview(all_of_it).cast("B").cast("d")
         view[24], view[25] = 0.8, 0.55  # vertex 12, through a neighbour's edges
         self.call("stepper_repair", stepper, c_double(0.0), None)
         self.assertTrue(math.isclose(self.area(list(view), self.faces(stepper)), 1.0))
@@ -192,7 +210,8 @@ class Interface(unittest.TestCase):
     def test_bodies_in_threads(self):
         alone = self.advance(self.piston(), 10)
         with ThreadPoolExecutor(4) as pool:
-            for seen in pool.map(lambda stepper: self.advance(stepper, 10), [self.piston() for _ in range(4)]):
+            steppers = [self.piston() for _ in range(4)]
+            for seen in pool.map(lambda stepper: self.advance(stepper, 10), steppers):
                 self.assertEqual(seen, alone)
 
     @unittest.skipUnless(numpy, "numpy is not here")

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""What the shipped scenarios come to, byte for byte: each with each strategy and quality, on one thread and on two.
+"""What the shipped scenarios come to, byte for byte: each with each strategy and quality, on one thread and
+on two.
 
     digests.py PROGRAM              compares with digests.csv; exit code 1 where something differs
     digests.py --update PROGRAM     writes digests.csv anew
 
-A digest is of steps.csv and regions.csv without the times that clocks tell, of the last mesh, and of how the run ended.
+A digest is of steps.csv and regions.csv without the times that clocks tell, of the last mesh, and of how the
+run ended.
 Whoever changes one on purpose says in CHANGELOG.md what has become different, and why.
 """
 
@@ -27,7 +29,8 @@ STRATEGIES = ("global", "local", "remesh", "kinetic", "auto", "flips", "optimize
 QUALITIES = ("none", "delaunay", "smooth", "angles")
 VERTICES, STEPS = 500, 6
 
-# The C library and the linear algebra choose among functions by the processor they run on; these exist on all.
+# The C library and the linear algebra choose among functions by the processor they run on; these exist on
+# all.
 sys.path.insert(0, str(HERE.parent))
 from same_everywhere import SAME_EVERYWHERE  # noqa: E402
 
@@ -71,7 +74,8 @@ def digest(program, scenario, strategy, quality, threads):
         told = (*overrides(scenario), f"repair.strategy={strategy}", f"repair.quality={quality}")
         done = subprocess.run([program, "run", scenario, "-o", out, "-q", "--threads", str(threads),
                                *(word for change in told for word in ("--set", change))],
-                              env=ENVIRONMENT, cwd=folder, capture_output=True, text=True, check=False)  # fmt: skip
+                              env=ENVIRONMENT, cwd=folder, capture_output=True, text=True,
+                              check=False)  # fmt: skip
         if done.returncode not in (0, 1):
             sys.exit(f"{scenario}: {done.stderr}")
         whole = hashlib.sha256(str(done.returncode).encode())

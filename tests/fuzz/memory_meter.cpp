@@ -13,7 +13,7 @@
 #endif
 
 #ifdef KINEMESH_ASAN
-// Of sanitizer/allocator_interface.h, which g++ does not bring in Debian.
+// Of <sanitizer/allocator_interface.h>, which g++ does not bring in Debian.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*taken)(const volatile void*, std::size_t),
                                                          void (*given_back)(const volatile void*));
 extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void* memory);

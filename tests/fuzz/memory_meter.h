@@ -1,5 +1,5 @@
-// How much memory is taken at most, counted at each allocation: by the sanitizer's hooks where there is one, else
-// by operator new and delete, which then are this program's own.
+// How much memory is taken at most, counted at each allocation: by the sanitizer's hooks where there is one,
+// else by operator new and delete, which then are this program's own.
 #pragma once
 
 #include <cstddef>

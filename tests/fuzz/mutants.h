@@ -1,5 +1,5 @@
-// Files that are nearly right: texts and numbers changed in ways that know tokens, lines, sections and counts.
-// The same seed gives the same mutants everywhere.
+// Files that are nearly right: texts and numbers changed in ways that know tokens, lines, sections and
+// counts. The same seed gives the same mutants everywhere.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ class Dice {
 // are repeated; lines and sections are dropped, doubled, swapped; the end is cut off; bytes flip.
 std::string mutated_text(std::string text, Dice& dice);
 
-// Likewise for numbers in little endian: counts and values of 4 and 8 bytes are overwritten, pieces are dropped
-// and doubled, bits flip.
+// Likewise for numbers in little endian: counts and values of 4 and 8 bytes are overwritten, pieces are
+// dropped and doubled, bits flip.
 std::string mutated_bytes(std::string bytes, Dice& dice);
 
 }  // namespace kinemesh

@@ -1,7 +1,7 @@
 // Feeds every reader with mutants of its files, in this process:
 //   mutate_files N [FORMAT [FIRST]]    N mutants of each format, or of one, from number FIRST on
-// A mutant is wrong where anything but InputError comes out, where it takes more memory than 40 times its size and
-// a little, or longer than two seconds. It is left in a file of its own, and the exit code is 1.
+// A mutant is wrong where anything but InputError comes out, where it takes more memory than 40 times its
+// size and a little, or longer than two seconds. It is left in a file of its own, and the exit code is 1.
 #include <unistd.h>
 
 #include <chrono>
@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Bytes, of a file's size and beside it: less than the 64 MiB that docs/formats.md leaves, as the files are small.
+// Bytes, of a file's size and beside it: less than the 64 MiB that docs/formats.md leaves, as the files are
+// small.
 constexpr std::size_t most_times = 40, most_beside = 8 << 20;
 constexpr std::chrono::seconds longest{2};
 

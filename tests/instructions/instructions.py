@@ -2,9 +2,9 @@
 
 instructions.py PROGRAM BUILD COUNTS.csv [--update]
 
-BUILD says what the program was built by: another one than in COUNTS.csv has other counts, and is skipped. Fails where a loop
-takes more than 5 % more instructions than it took; --update writes the counts of now. glibc is told to use the same
-functions on every processor.
+BUILD says what the program was built by: another one than in COUNTS.csv has other counts, and is skipped.
+Fails where a loop takes more than 5 % more instructions than it took; --update writes the counts of now.
+glibc is told to use the same functions on every processor.
 """
 
 import csv

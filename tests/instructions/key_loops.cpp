@@ -1,5 +1,6 @@
-// The loops that a step spends its time in, once each, for counting their instructions: between two lines of this program
-// callgrind counts, and writes what it has counted under the loop's name. One thread, fixed seeds.
+// The loops that a step spends its time in, once each, for counting their instructions: between two lines of
+// this program callgrind counts, and writes what it has counted under the loop's name. One thread, fixed
+// seeds.
 #include <tbb/global_control.h>
 #include <valgrind/callgrind.h>
 

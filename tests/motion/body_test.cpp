@@ -286,7 +286,7 @@ TEST(Motion, ALayerDoesNotBendABorderThatAnotherMotionNames) {
     EXPECT_EQ(x[v], mesh.position(v) + Point(0.01, 0.0));
 }
 
-// ---- The interior ------------------------------------------------------------------------------------------------
+// ---- The interior -----------------------------------------------------------------------------------------
 
 Points follow(const Motion& motion, const Mesh& mesh, double dt, Following& following) {
   Points x1(mesh.n_vertices());
@@ -369,7 +369,7 @@ TEST(Following, GoesOnFromTheLastStepThatCounts) {
   EXPECT_EQ(follow(motion, mesh, 0.5, following), follow(motion, mesh, 0.5, again));
 }
 
-// ---- The field `rigid` -------------------------------------------------------------------------------------------
+// ---- The field `rigid` ------------------------------------------------------------------------------------
 
 TEST(Rigid, GoesByFormulasOrByATable) {
   const FieldParameters formulas{{"x", "2*t"}, {"angle", "pi*t"}, {"center", std::vector<double>{1.0, 0.0}}};

@@ -2,7 +2,9 @@
 
 import os
 import re
+import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -23,8 +25,20 @@ def sources(folder):
     return [path for path in sorted((ROOT / folder).rglob("*")) if path.suffix in (".h", ".cpp")]
 
 
+def pages():
+    return sorted((ROOT / "docs").glob("*.md")) + [ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+
+
+def written(*suffixes):
+    """All files of ours with these ends of their names."""
+    folders = (*FOLDERS, "include", "tests", "bench", "examples", "cmake", "scripts")
+    paths = [*ROOT.iterdir(), *(path for folder in folders for path in sorted((ROOT / folder).rglob("*")))]
+    return [path for path in paths
+            if path.name.endswith(suffixes) and path.is_file() and "node_modules" not in path.parts]
+
+
 def rooms():
-    """{folder: {"SOURCES": [...], "HEADERS": [...], "KNOWS": [...], "USES": [...]}}, as the CMakeLists.txt have them."""
+    """{folder: {"SOURCES": [...], "HEADERS": [...], "KNOWS": [...], "USES": [...]}}, by CMakeLists.txt."""
     found = {}
     for folder in FOLDERS:
         for lists in sorted((ROOT / folder).rglob("CMakeLists.txt")):
@@ -53,13 +67,15 @@ class Rooms(unittest.TestCase):
     def setUp(self):
         self.rooms = rooms()
         self.assertGreater(len(self.rooms), 15)
-        self.room_of = {f"kinemesh/{name}.h": room for room, lines in self.rooms.items() for name in lines["HEADERS"]}
+        self.room_of = {f"kinemesh/{name}.h": room
+                        for room, lines in self.rooms.items() for name in lines["HEADERS"]}
 
     def headers(self, room):
         return [ROOT / "include/kinemesh" / f"{name}.h" for name in self.rooms[room]["HEADERS"]]
 
     def files(self, room):
-        return [path for path in sorted((ROOT / room).iterdir()) if path.suffix in (".h", ".cpp")] + self.headers(room)
+        inside = [path for path in sorted((ROOT / room).iterdir()) if path.suffix in (".h", ".cpp")]
+        return inside + self.headers(room)
 
     def included(self, path):
         """From which room, by the name in the #include."""
@@ -90,7 +106,8 @@ class Rooms(unittest.TestCase):
             self.assertIn(f"kinemesh/{path.name}", self.room_of)
 
     def test_cgal_stays_behind_sources(self):
-        headers = {path: read(path) for folder in (*FOLDERS, "include") for path in sources(folder) if path.suffix == ".h"}
+        headers = {path: read(path)
+                   for folder in (*FOLDERS, "include") for path in sources(folder) if path.suffix == ".h"}
         internal = {path for path, text in headers.items() if "For .cpp files only" in text}
         for path in headers.keys() - internal:
             self.assertNotIn("#include <CGAL/", headers[path], path)
@@ -99,14 +116,15 @@ class Rooms(unittest.TestCase):
 
 
 class References(unittest.TestCase):
-    """[Author 1999, §2; Other & Third 2001] in a comment or a page is author1999 and other2001 in docs/references.bib."""
+    """[Author 1999, §2; Other & Third 2001] in a comment or a page is author1999 and other2001 in
+    docs/references.bib."""
 
     PART = r"[A-Z][A-Za-z]+(?: & [\w ]+?)? [12]\d{3}(?:, [^\[\];]*)?"
 
     def setUp(self):
         self.entries = set(re.findall(r"^@\w+\{(\w+),", read(ROOT / "docs/references.bib"), re.MULTILINE))
         files = [path for folder in (*FOLDERS, "include", "tests", "bench") for path in sources(folder)]
-        files += sorted((ROOT / "docs").glob("*.md")) + [ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+        files += pages()
         self.cited = {}
         for path in files:
             text = re.sub(r"\s*\n\s*(?://)?\s*", " ", read(path))
@@ -124,22 +142,70 @@ class References(unittest.TestCase):
         self.assertEqual(self.entries - set(self.cited), set())
 
 
+class Paths(unittest.TestCase):
+    """A file that a comment or a page names by its path exists: from the root, include/ or its own folder."""
+
+    NAME = re.compile(r"(?<![\w./~$<{*-])((?:[\w.-]+/)+[\w.-]+\.(?:h|cpp|md|py|sh))\b(?![\w*/])")
+
+    def prose(self):
+        for path in written(".h", ".cpp", ".c"):
+            yield path, "\n".join(re.findall(r"//[^\n]*|/\*.*?\*/", read(path), re.DOTALL))
+        for path in pages():
+            yield path, read(path)
+
+    def test_files_named_are_there(self):
+        named = 0
+        for path, text in self.prose():
+            for name in self.NAME.findall(text):
+                named += 1
+                places = (ROOT / name, ROOT / "include" / name, path.parent / name)
+                self.assertTrue(any(p.exists() for p in places), f"{path.relative_to(ROOT)} names {name}")
+        self.assertGreater(named, 200)
+
+
+class Columns(unittest.TestCase):
+    def test_lines_have_110_columns_at_most(self):
+        files = written(".h", ".cpp", ".c", ".py", ".cmake", "CMakeLists.txt", ".sh")
+        self.assertGreater(len(files), 400)
+        for path in files:
+            for number, line in enumerate(read(path).splitlines(), 1):
+                self.assertLessEqual(len(line), 110, f"{path.relative_to(ROOT)}:{number}")
+
+
+class Format(unittest.TestCase):
+    """.clang-format is the law, as the version of Debian 12 reads it: others format differently."""
+
+    def test_clang_format_changes_nothing(self):
+        command = ["clang-format", "--dry-run", "-Werror", *map(str, written(".h", ".cpp", ".c"))]
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr[:2000])
+
+
+def has_clang_format():
+    if not shutil.which("clang-format"):
+        return False
+    told = subprocess.run(["clang-format", "--version"], capture_output=True, text=True, check=False).stdout
+    return "version 14." in told
+
+
 class Readme(unittest.TestCase):
     def test_code_is_the_example_that_is_built_and_run(self):
         self.assertEqual(blocks("README.md", "cpp"), [read(ROOT / "examples/embed.cpp")])
 
     def test_links_lead_somewhere(self):
-        for document in ("README.md", "CONTRIBUTING.md", *(f"docs/{p.name}" for p in (ROOT / "docs").glob("*.md"))):
-            text = re.sub(r"^```.*?^```$", "", read(ROOT / document), flags=re.MULTILINE | re.DOTALL)
+        for document in pages():
+            text = re.sub(r"^```.*?^```$", "", read(document), flags=re.MULTILINE | re.DOTALL)
             for target in re.findall(r"\]\((?!https?:)([^)#]+)", text):
-                self.assertTrue(((ROOT / document).parent / target).exists(), f"{document} links to {target}")
+                self.assertTrue((document.parent / target).exists(), f"{document} links to {target}")
 
 
 class Embedding(unittest.TestCase):
-    """Each block of docs/embedding.md is a piece of a program that is built and run, apart from its indentation."""
+    """Each block of docs/embedding.md is a piece of a program that is built and run, apart from its
+    indentation."""
 
     PROGRAMS = {"cpp": ("examples/solver_loop.cpp", "examples/fluid_structure.cpp"),
-                "c": ("tests/consumer/project/consumer.c", "examples/moving_walls.c"), "cmake": ("tests/consumer/project/CMakeLists.txt",)}
+                "c": ("tests/consumer/project/consumer.c", "examples/moving_walls.c"),
+                "cmake": ("tests/consumer/project/CMakeLists.txt",)}
 
     def test_blocks_are_pieces_of_programs(self):
         for language, programs in self.PROGRAMS.items():
@@ -152,7 +218,8 @@ class Embedding(unittest.TestCase):
                     self.assertLessEqual(set(wanted), set(lines), block)
                 else:
                     starts = range(len(lines) - len(wanted) + 1)
-                    self.assertTrue(any(lines[i:i + len(wanted)] == wanted for i in starts), f"{programs}:\n{block}")
+                    is_there = any(lines[i:i + len(wanted)] == wanted for i in starts)
+                    self.assertTrue(is_there, f"{programs}:\n{block}")
 
 
 class Scenarios(unittest.TestCase):
@@ -170,7 +237,8 @@ class Scenarios(unittest.TestCase):
         files = sorted((ROOT / "examples/gallery").glob("*.toml"))
         self.assertGreater(len(files), 1)
         page = read(ROOT / "docs/gallery.md")
-        self.assertEqual(sorted(set(re.findall(r"examples/gallery/([\w-]+\.toml)", page))), [f.name for f in files])
+        shown = sorted(set(re.findall(r"examples/gallery/([\w-]+\.toml)", page)))
+        self.assertEqual(shown, [f.name for f in files])
         for scenario in files:
             with tempfile.TemporaryDirectory() as folder:
                 result = run("run", scenario, "-o", Path(folder) / "out", "--dry-run")
@@ -191,9 +259,11 @@ class CommandLine(unittest.TestCase):
         shown = run("--help").stdout.partition("Subcommands:")[2]
         commands = re.findall(r"^  ([a-z]+) ", shown, re.MULTILINE)
         self.assertGreater(len(commands), 3, shown)
-        self.assertEqual(sorted(re.findall(r"^\| `kinemesh ([a-z]+)", read(ROOT / "README.md"), re.MULTILINE)),
-                         sorted(commands))
+        listed = re.findall(r"^\| `kinemesh ([a-z]+)", read(ROOT / "README.md"), re.MULTILINE)
+        self.assertEqual(sorted(listed), sorted(commands))
 
 
 if __name__ == "__main__":
+    if "Format" in sys.argv and not has_clang_format():
+        sys.exit(77)
     unittest.main()

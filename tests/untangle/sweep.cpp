@@ -1,5 +1,5 @@
-// Long sweeps over the properties of tests/untangle/properties.h and in_motion.h: sweep_untangle [SEEDS] [FIRST]. Prints
-// every seed that breaks one; exit 1 if there is any.
+// Long sweeps over the properties of tests/untangle/properties.h and in_motion.h: sweep_untangle [SEEDS]
+// [FIRST]. Prints every seed that breaks one; exit 1 if there is any.
 #include <charconv>
 #include <cstdint>
 #include <cstring>

@@ -16,7 +16,8 @@ struct Hole {
 
   std::vector<int> faces;    // that are taken out, ascending
   std::vector<Side> border;  // in the order of the faces, from corner 0 of each on
-  // Of the edges between two of the faces those that are constrained, by their lower sides; in the order of the faces.
+  // Of the edges between two of the faces those that are constrained, by their lower sides; in the order of
+  // the faces.
   std::vector<int> inner_constraints;
 
   // Takes out the faces of a set, ascending. Reads no other face. Keeps its memory from one to the next.

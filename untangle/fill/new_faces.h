@@ -29,8 +29,8 @@ struct NewFaces {
 // As many faces as were taken out, and as many sides along the border.
 bool fit(const NewFaces& faces, const Hole& hole);
 
-// What lines the vertices and edges of a defect are of, in words: borders, interfaces, markers. Cost: O(m) each for m
-// constrained edges.
+// What lines the vertices and edges of a defect are of, in words: borders, interfaces, markers. Cost: O(m)
+// each for m constrained edges.
 std::string lines_of(const Mesh& mesh, const Defect& defect);
 
 // Makes the patch. Keeps scratch memory for the next.
@@ -47,8 +47,8 @@ class Finisher {
   // defect unless it is allowed. A new face takes the place of one with its label, so that the user's numbers
   // stay where they are; only when vertices have escaped do slots change their label. The patch does not
   // depend on the order of the new faces. Checks the certificate: as many faces as were in the set, as many
-  // edges, each constrained edge again, each face upright. Throws std::logic_error otherwise, which is a bug of ours. Without a defect
-  // `patch` is overwritten.
+  // edges, each constrained edge again, each face upright. Throws std::logic_error otherwise, which is a bug
+  // of ours. Without a defect `patch` is overwritten.
   [[nodiscard]] std::optional<Defect> run(const Mesh& mesh, const Hole& hole, NewFaces& faces,
                                           bool allow_escaped, Patch& patch);
 

@@ -10,11 +10,11 @@
 
 namespace kinemesh {
 
-// The signed area of each triangle (x, p, q) is linear in x, so that the largest t that all areas reach is the
-// optimum of a linear programme in x, y and t [Freitag & Plassmann 2000]. x is sought in the bounding box of
-// the link, where every vertex of a valid mesh is. Solved in expected linear time [Seidel 1991]: constraints
-// come in a shuffled order, always the same, and one that the optimum so far violates holds with equality at
-// the next, which leaves a programme with one unknown less.
+// The signed area of each triangle (x, p, q) is linear in x, so that the largest t that all areas reach is
+// the optimum of a linear programme in x, y and t [Freitag & Plassmann 2000]. x is sought in the bounding box
+// of the link, where every vertex of a valid mesh is. Solved in expected linear time [Seidel 1991]:
+// constraints come in a shuffled order, always the same, and one that the optimum so far violates holds with
+// equality at the next, which leaves a programme with one unknown less.
 class MaxMinArea {
  public:
   // Rounded; nothing for a link without extent.

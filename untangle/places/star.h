@@ -10,8 +10,8 @@
 
 namespace kinemesh {
 
-// Of an upright triangle's smallest angle, as tangent_of_smallest_angle (kinemesh/measure.h) but for rounding:
-// the same bits, whichever of its corners comes first.
+// Of an upright triangle's smallest angle, as tangent_of_smallest_angle (kinemesh/measure.h) but for
+// rounding: the same bits, whichever of its corners comes first.
 double tangent_from_any_corner(const std::array<Point, 3>& corners);
 
 // Does not depend on how the mesh is stored, neither on the order of faces, vertices and corners nor on where

@@ -191,8 +191,8 @@ bool AngleUpkeep::is_outdated(const Joint& joint) const {
   return has_changed(joint.face) || std::ranges::any_of(joint.faces, has_changed);
 }
 
-// As far around the face as it takes, but not beyond a worse one, which looks around itself. If nothing helps, with a
-// side flipped.
+// As far around the face as it takes, but not beyond a worse one, which looks around itself. If nothing
+// helps, with a side flipped.
 void AngleUpkeep::find_joint(const Mesh& mesh, Joint& joint) const {
   const double own = tangent_from_any_corner(mesh.corners(joint.face));
   joint.round = n_rounds_;

@@ -24,9 +24,9 @@ inline float bound(double dot, double error, double per_cross) {
 
 }  // namespace cotangents
 
-// No more than the cotangents of the angles opposite the sides of an upright triangle: number k is that across
-// from the side from corner k to corner k + 1; minus infinity where rounding leaves too little to say. An edge
-// is locally Delaunay if the two angles across from it add up to two right ones at most, so if their
+// No more than the cotangents of the angles opposite the sides of an upright triangle: number k is that
+// across from the side from corner k to corner k + 1; minus infinity where rounding leaves too little to say.
+// An edge is locally Delaunay if the two angles across from it add up to two right ones at most, so if their
 // cotangents add up to 0 or more: where two of these bounds do, it is proved.
 inline std::array<float, 3> cotangent_bounds(const std::array<Point, 3>& p) {
   const Point u = p[0] - p[2], v = p[1] - p[2];

@@ -16,8 +16,8 @@ struct VertexFreedom {
       held;  // per vertex: stays although it could move, inside a solid body say; empty: none does
 
   // Vertices of sliding borders may move along these, either way, though they are on constrained edges. They
-  // stay strictly between the two ends of these edges; a vertex that is on another number of them than two, or
-  // fixed, does not move.
+  // stay strictly between the two ends of these edges; a vertex that is on another number of them than two,
+  // or fixed, does not move.
   // On straight lines: the unit vectors along them.
   std::unordered_map<int, Point> tangents = {};
   // On curved ones: the numbers of the curves. On the convex hull of the mesh they stay.

@@ -33,7 +33,8 @@ class VertexSweeps {
     double least_distance, tangent;
   };
 
-  // Pre: the mesh is valid and has the number of vertices of the one this was made for. stays: see QualityInputs.
+  // Pre: the mesh is valid and has the number of vertices of the one this was made for. stays: see
+  // QualityInputs.
   Counts run(Mesh& mesh, const SmoothingOptions& options, std::span<const char> stays = {});
 
   // By the last run, each once, in no order.

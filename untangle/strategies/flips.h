@@ -16,9 +16,10 @@ namespace kinemesh {
 bool flip_untangles(const Mesh& mesh, int edge);
 
 // Flips edges of inverted and flat faces as long as some flip makes the inverted area smaller, or, that area
-// being the same, the faces fewer that are not upright. Greedy: what makes it smallest comes first; this order
-// is rounded, what may be flipped is exact. Constrained edges stay and no two edges get the same ends, so that
-// labels and borders are what they were. It ends: no triangulation comes twice, and there are finitely many.
+// being the same, the faces fewer that are not upright. Greedy: what makes it smallest comes first; this
+// order is rounded, what may be flipped is exact. Constrained edges stay and no two edges get the same ends,
+// so that labels and borders are what they were. It ends: no triangulation comes twice, and there are
+// finitely many.
 //
 // May get stuck: then the mesh is as it was, and the defect names a face that flips cannot turn, with its
 // corners there, and how many there are. Valid whenever it succeeds: if all faces are upright within a convex

@@ -8,8 +8,8 @@
 
 namespace kinemesh {
 
-// Detect, walk and re-mesh the regions in all threads, and only then splice: whatever fails leaves the mesh as
-// it was. With more than one thread explore_ms and triangulate_ms overlap. Faces outside the regions
+// Detect, walk and re-mesh the regions in all threads, and only then splice: whatever fails leaves the mesh
+// as it was. With more than one thread explore_ms and triangulate_ms overlap. Faces outside the regions
 // R* = phi(I)* stay; a valid mesh exists and is found unless constrained edges touch, vertices coincide, or a
 // vertex has left the padded mesh [Agarwal 2008, §5 and Lemma 3.3].
 class GlobalUntangling : public Strategy {

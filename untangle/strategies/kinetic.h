@@ -16,12 +16,13 @@ namespace kinemesh {
 // [Agarwal 2008, §1]. Unlike the other strategies' result, this one's depends on the way: a face that has
 // turned over and back again may have cost a flip. Where no flip can follow, because a vertex has met a
 // constrained edge, the hull or several others on its way, the connectivity reached is taken to the end, and
-// what is tangled there is replaced as `global` does: so a mesh is found whenever there is one, and only then.
+// what is tangled there is replaced as `global` does: so a mesh is found whenever there is one, and only
+// then.
 //
-// Regions are the connected pieces of what flips and these replacements have rewritten; `fallback` marks those
-// with a replacement. Counts of tangles are of the connectivity before at the positions after, so that a region may
-// have none. `retain` has no meaning. Cost: O(n) to find the faces that collapse, O(log n) for each event and
-// flip. Memory: about 500 bytes for each of these, and 5 for each face.
+// Regions are the connected pieces of what flips and these replacements have rewritten; `fallback` marks
+// those with a replacement. Counts of tangles are of the connectivity before at the positions after, so that
+// a region may have none. `retain` has no meaning. Cost: O(n) to find the faces that collapse, O(log n) for
+// each event and flip. Memory: about 500 bytes for each of these, and 5 for each face.
 class KineticUntangling : public Strategy {
  public:
   std::string_view name() const override { return "kinetic"; }

@@ -17,19 +17,19 @@ struct KineticCounts {
   int stuck = 0;  // events that no flip could follow
 };
 
-// Every vertex moves from `before` to where the mesh has it, at constant speed, in time 0 to 1. That a face is
-// upright is a certificate, which fails at a root of its area, a quadratic of time [Basch 1997]. Failures are
-// taken in the exact order of these roots, at the same time by face: one corner then lies on the opposite edge,
-// and flipping that edge leaves two upright faces.
+// Every vertex moves from `before` to where the mesh has it, at constant speed, in time 0 to 1. That a face
+// is upright is a certificate, which fails at a root of its area, a quadratic of time [Basch 1997]. Failures
+// are taken in the exact order of these roots, at the same time by face: one corner then lies on the opposite
+// edge, and flipping that edge leaves two upright faces.
 //
 // Degenerate: at one time several faces may collapse, or corners meet; "after" an instant stands for all of
-// some interval behind it. Edges that leave two faces upright after the instant are flipped first. A flat face
-// whose longest edge has another flat face beside it, all of them on one line, has that edge flipped
+// some interval behind it. Edges that leave two faces upright after the instant are flipped first. A flat
+// face whose longest edge has another flat face beside it, all of them on one line, has that edge flipped
 // nonetheless: faces on lines get other edges, until one with a corner off the line is met. Of two vertices
 // that meet one turns around the other, edge by edge. Both kinds of flips take an edge once at most at an
-// instant, which is why they end; the first kind leaves fewer faces that are not upright. What still cannot be
-// flipped stays as it is: a corner that has reached a constrained edge or the hull, or two others at once. It
-// may come back by itself, and is tried again whenever a face beside it changes.
+// instant, which is why they end; the first kind leaves fewer faces that are not upright. What still cannot
+// be flipped stays as it is: a corner that has reached a constrained edge or the hull, or two others at once.
+// It may come back by itself, and is tried again whenever a face beside it changes.
 //
 // At the end, time 1, flat faces are treated like inverted ones.
 class KineticFlips {

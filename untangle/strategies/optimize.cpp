@@ -134,8 +134,8 @@ class VertexOptimization::Run {
     return true;
   }
 
-  // Where the best place leaves a face that is not upright, it often lies on another vertex, and faces between
-  // two such vertices stay flat for good. Short of it is better too: the smallest area is concave.
+  // Where the best place leaves a face that is not upright, it often lies on another vertex, and faces
+  // between two such vertices stay flat for good. Short of it is better too: the smallest area is concave.
   std::optional<Point> place_of(std::span<const LinkEdge> link, const Point& from) {
     const auto best = own_.max_min_area_(link);
     if (!best || count_upright(link, *best) == std::ssize(link)) return best;

@@ -11,10 +11,11 @@
 namespace kinemesh {
 
 // Local optimization [Freitag & Plassmann 2000]: a free vertex (no frame, not fixed, on no constrained edge)
-// goes to where the smallest signed area of the faces around it is largest (quality/max_min_area.h), or most
-// of the way there where that leaves one inverted or flat, if all of them are then larger than the smallest
-// was, by exact signs. Sweeps go over the free vertices of inverted and flat faces, in the order of their
-// numbers; after each that does not leave fewer of these faces than ever, over one ring of neighbours more.
+// goes to where the smallest signed area of the faces around it is largest (untangle/places/max_min_area.h),
+// or most of the way there where that leaves one inverted or flat, if all of them are then larger than the
+// smallest was, by exact signs. Sweeps go over the free vertices of inverted and flat faces, in the order of
+// their numbers; after each that does not leave fewer of these faces than ever, over one ring of neighbours
+// more.
 //
 // May fail: after max_rings such sweeps in a row. Then all vertices are where they were, bit for bit, and the
 // defect names an inverted or flat face, where it was in the end, and how many were left. Valid whenever it

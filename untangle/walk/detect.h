@@ -16,8 +16,8 @@ struct Tangles {
 };
 
 // Exact. Padding included. One sweep over all corners in all threads; the result does not depend on their
-// number. Minima, where they are wanted, are measured on the way; what they know already is not looked at again
-// unless it has moved since, which anything may have if `moved` is null.
+// number. Minima, where they are wanted, are measured on the way; what they know already is not looked at
+// again unless it has moved since, which anything may have if `moved` is null.
 Tangles detect(const Mesh& mesh, FaceMinima* minima = nullptr, const MovedBlocks* moved = nullptr);
 
 // The same for these faces, in their order.

@@ -5,6 +5,8 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/core/mesh/sample_meshes.h"
@@ -242,6 +244,43 @@ TEST(CollapseTime, CanBeAskedForFromAnotherOn) {
         EXPECT_EQ(later.has_value(), time && compare(*time, from.time) > 0);
       }
     }
+  }
+}
+
+// Each thread begins at another place, so that none has worked all out before the others come.
+TEST(CollapseTime, CanBeAskedByThreadsAtOnce) {
+  Random random(6);
+  const auto cases = lattice_cases(random, 150, 2);
+  const auto ask = [](const std::vector<CollapseTime>& times, const std::vector<KineticQuadratic>& areas,
+                      std::size_t first) {
+    std::vector<int> answers(2 * times.size());
+    for (std::size_t n = 0; n < times.size(); ++n) {
+      const std::size_t i = (first + n) % times.size(), next = (i + 1) % times.size();
+      answers[2 * i] = compare(times[i], times[next]);
+      answers[2 * i + 1] = areas[i].sign_after(times[next]);
+    }
+    return answers;
+  };
+  const auto fresh = [&] {
+    std::pair<std::vector<CollapseTime>, std::vector<KineticQuadratic>> all;
+    for (const auto& p : cases) {
+      if (const auto time = area(p).collapse_after()) {
+        all.first.push_back(*time);
+        all.second.push_back(area(p));
+      }
+    }
+    return all;
+  };
+  const auto [alone_times, alone_areas] = fresh();
+  const auto expected = ask(alone_times, alone_areas, 0);
+  for (int round = 0; round < 20; ++round) {
+    const auto all = fresh();
+    std::vector<std::vector<int>> answers(4);
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < answers.size(); ++i)
+      threads.emplace_back([&, i] { answers[i] = ask(all.first, all.second, i); });
+    threads.clear();
+    for (const auto& answer : answers) EXPECT_EQ(answer, expected);
   }
 }
 

@@ -1,5 +1,5 @@
-// What a file can make a reader do is in proportion to the file: memory by its size, time by its length, whatever
-// its counts say and however often it names one thing.
+// What a file can make a reader do is in proportion to the file: memory by its size, time by its length,
+// whatever its counts say and however often it names one thing.
 #include <gmock/gmock.h>
 #include <zlib.h>
 

@@ -86,7 +86,7 @@ TEST(Off, RefusesTruncatedFilesAndWrongCounts) {
   refused("OFF\n1000 1 0\n" + vertices + "3 0 1 2\n", 2,
           "1000 as number of vertices is more than the rest of the file can hold");
   refused("OFF\n3 1000 0\n" + vertices + "3 0 1 2\n", 2, "1000 as number of faces");
-  refused("OFF\n2000000000 1 0\n", 2, "2000000000 is more than 357913941");
+  refused("OFF\n2000000000 1 0\n", 2, "2000000000 is more than 268435455");
   refused("OFF\n3 0 0\n" + vertices, 0, "no triangles, expected at least one");
 }
 

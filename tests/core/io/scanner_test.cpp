@@ -107,7 +107,7 @@ TEST(Scanner, RefusesCountsTheRestCannotHold) {
   EXPECT_EQ(refusal([] { Scanner("-1", "file").count("count", 2); }),
             "file:1: -1 is negative, expected count");
   EXPECT_EQ(refusal([] { Scanner("9999999999", "file").count("count", 2); }),
-            "file:1: 9999999999 is more than 357913941, the largest count");
+            "file:1: 9999999999 is more than 268435455, the largest count");
 }
 
 TEST(Scanner, QuotesStrangeBytes) {

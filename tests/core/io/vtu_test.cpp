@@ -75,8 +75,8 @@ TEST(Vtu, OtherLabelsAreLeftOutWithANote) {
 TEST(Vtu, Quadrilaterals) {
   File file;
   file.piece = "NumberOfPoints=\"4\" NumberOfCells=\"1\"";
-  file.points =
-      R"(<DataArray type="Float32" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 1 1 0 0 1 0</DataArray>)";
+  file.points = R"(<DataArray type="Float32" NumberOfComponents="3" format="ascii">)"
+                "0 0 0 1 0 0 1 1 0 0 1 0</DataArray>";
   file.connectivity = R"(<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>)";
   file.offsets = R"(<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>)";
   file.types = R"(<DataArray type="UInt8" Name="types" format="ascii">9</DataArray>)";
@@ -250,8 +250,8 @@ std::size_t data_of(const std::string& text) {
   return text.find('_', text.find(tag_of_data) + tag_of_data.size()) + 1;
 }
 
-// What VTK reads before it knows of the data: the block with the tag's end, and the next. Markers of all lengths
-// bring that end to every place in a block.
+// What VTK reads before it knows of the data: the block with the tag's end, and the next. Markers of all
+// lengths bring that end to every place in a block.
 TEST(Vtu, NoDataComeInTheBlocksThatVtkMayTakeForXml) {
   MeshData mesh = square();
   mesh.markers = {{"", {{0, 1}}}};

@@ -62,7 +62,7 @@ TEST(Follow, LeavesTheFrameWhileTheDomainIsWellInside) {
   Mesh mesh = build_mesh(four_triangles(), {.frame = 0.5});
   for (int user = 0; user < 5; ++user) mesh.positions()[mesh.vertex_of_user(user)] += Point(0.5, -0.5);
   auto next = positions(mesh);
-  follow(mesh, next);
+  EXPECT_FALSE(follow(mesh, next));
   EXPECT_EQ(next, positions(mesh));
 }
 
@@ -71,12 +71,23 @@ TEST(Follow, MovesTheFrameWithADriftingDomain) {
   for (int step = 0; step < 100; ++step) {
     for (int user = 0; user < 5; ++user) mesh.positions()[mesh.vertex_of_user(user)] += Point(0.25, 0.125);
     auto next = positions(mesh);
-    follow(mesh, next);
+    EXPECT_FALSE(follow(mesh, next));
     mesh.swap_positions(next);
     for (const int v : mesh.hull()) EXPECT_EQ(mesh.user_vertex(v), none);
     for (int user = 0; user < 5; ++user)
       EXPECT_FALSE(is_outside_hull(mesh, mesh.position(mesh.vertex_of_user(user))));
   }
+}
+
+// Also where all of the domain has a finite place.
+TEST(Follow, IsADefectWhereACornerWouldBeInfinite) {
+  const Mesh mesh = build_mesh(four_triangles(), {.frame = 0.5});
+  auto next = positions(mesh);
+  for (int user = 0; user < 5; ++user) next[mesh.vertex_of_user(user)] *= 8e307;
+  const auto defect = follow(mesh, next);
+  ASSERT_TRUE(defect);
+  EXPECT_EQ(defect->kind, DefectKind::NonFinitePosition);
+  EXPECT_EQ(defect->vertices, std::vector<int>{none});
 }
 
 TEST(IsOutsideHull, IsExact) {

@@ -45,6 +45,18 @@ MeshData together(const MeshData& a, const MeshData& b) {
   return both;
 }
 
+// Neither arrays nor files of this size are made here.
+TEST(Refused, MoreThanNumbersGo) {
+  EXPECT_EQ(2 * Mesh::side(most_items - 1, 2) + 1, std::numeric_limits<int>::max() - 10);
+  EXPECT_NO_THROW(check_size(most_items, "faces"));
+  try {
+    check_size(std::size_t{1} << 28, "faces");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "268435456 faces, at most 268435455 expected");
+  }
+}
+
 TEST(Refused, NumbersThatDoNotFit) {
   EXPECT_THAT(refusal({}), HasSubstr("no faces"));
   auto data = four_triangles();

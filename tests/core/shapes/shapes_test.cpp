@@ -293,6 +293,27 @@ TEST(Shapes, are_known_by_name) {
   }
 }
 
+// And before any memory is asked for.
+TEST(Shapes, are_no_larger_than_numbers_go) {
+  for (const auto& [nx, ny] :
+       {std::pair(50000, 50000), {1, 1 << 28}, {2147483647, 2147483647}, {1 << 14, 1 << 13}}) {
+    try {
+      make_grid(nx, ny);
+      ADD_FAILURE() << nx << " by " << ny << " cells are accepted";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("of a grid, at most 268435455 expected"));
+    }
+  }
+  for (const ShapeInfo& shape : shapes()) {
+    try {
+      make_shape(shape.name, {.vertices = 2147483647});
+      ADD_FAILURE() << shape.name << ": too many vertices are accepted";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("2147483647 vertices, expected at most 134217727"));
+    }
+  }
+}
+
 TEST(Shapes, unknown_names_are_refused_with_the_known_ones) {
   try {
     make_shape("torus");

@@ -55,8 +55,8 @@ class Faults : public ProgramTest {
     return run(command(folder));
   }
 
-  // Logs of whole steps, the same number of them in both, and meshes that belong to them. Where it has not come so far
-  // that there is a folder, nothing.
+  // Logs of whole steps, the same number of them in both, and meshes that belong to them. Where it has not
+  // come so far that there is a folder, nothing.
   void expect_whole_steps(const std::string& folder) const {
     if (!fs::exists(path(folder))) return;
     const Results left = test::results_in(path(folder));

@@ -1,5 +1,5 @@
-// What the program may not do to files: write through links, replace what is not its own, write where another process
-// writes; and what its exit codes say of what it wrote.
+// What the program may not do to files: write through links, replace what is not its own, write where another
+// process writes; and what its exit codes say of what it wrote.
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -71,7 +71,7 @@ class Files : public ProgramTest {
   }
 };
 
-// ---- Inputs ------------------------------------------------------------------------------------------------------
+// ---- Inputs -----------------------------------------------------------------------------------------------
 
 TEST_F(Files, ARecordedSeriesIsNotReplacedByItsRun) {
   write("s.toml", steps(20, "every = 5\n"));
@@ -163,7 +163,7 @@ TEST_F(Files, FilesOfARunAreNotReplacedByAPicture) {
   EXPECT_EQ(run({"report", "d", "-o", "d/page.html"}).code, 0) << "a page of ours is replaced";
 }
 
-// ---- Links, pipes, folders ---------------------------------------------------------------------------------------
+// ---- Links, pipes, folders --------------------------------------------------------------------------------
 
 TEST_F(Files, NothingIsWrittenThroughLinks) {
   write("s.toml", steps(20));
@@ -229,7 +229,7 @@ TEST_F(Files, AnOutputThatTheUserNamesByALinkIsWhatItLeadsTo) {
   EXPECT_TRUE(fs::is_regular_file(path("real.obj")));
 }
 
-// ---- One writer --------------------------------------------------------------------------------------------------
+// ---- One writer -------------------------------------------------------------------------------------------
 
 TEST_F(Files, AFolderHasOneWriter) {
   write("s.toml", steps(400, "patches = true\n"));
@@ -256,7 +256,7 @@ TEST_F(Files, TheLockOfAKilledRunIsGone) {
   EXPECT_EQ(run({"run", "s.toml", "-o", "d", "-q", "--resume", "--set", "time.steps=400"}).code, 0);
 }
 
-// ---- Exit codes --------------------------------------------------------------------------------------------------
+// ---- Exit codes -------------------------------------------------------------------------------------------
 
 TEST_F(Files, AFullDiskIsOneOfARunAndThreeOfOthers) {
   write("m.off", grid_off(20, {{50, 12.5, 1.5}}));

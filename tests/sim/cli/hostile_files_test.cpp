@@ -1,4 +1,5 @@
-// Files made to take memory or time, given to the program: it takes them quickly, or refuses them in one line.
+// Files made to take memory or time, given to the program: it takes them quickly, or refuses them in one
+// line.
 #include <chrono>
 #include <nlohmann/json.hpp>
 

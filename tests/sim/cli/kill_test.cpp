@@ -1,6 +1,7 @@
-// Programs killed with SIGKILL at random moments and started again: nothing is lost, nothing comes twice, nothing of
-// the killed stays in the way. Where the system allows it, each is the first process of a pid namespace of its own, so
-// that all of them have the same number. KINEMESH_KILLS: how many, for scripts/kill_and_resume.sh.
+// Programs killed with SIGKILL at random moments and started again: nothing is lost, nothing comes twice,
+// nothing of the killed stays in the way. Where the system allows it, each is the first process of a pid
+// namespace of its own, so that all of them have the same number. KINEMESH_KILLS: how many, for
+// scripts/kill_and_resume.sh.
 #include <chrono>
 #include <csignal>
 #include <cstdio>

@@ -31,6 +31,17 @@ class NoThreads : public ProgramTest {
         {{"LD_PRELOAD", KINEMESH_FAILING_THREADS}, {"KINEMESH_THREADS", std::to_string(threads)}});
     return run(arguments);
   }
+
+  // With so much address space.
+  Result run_limited(rlim_t megabytes, const std::vector<std::string>& arguments) const {
+    rlimit old{};
+    EXPECT_EQ(getrlimit(RLIMIT_AS, &old), 0);
+    const rlimit small{megabytes << 20, old.rlim_max};
+    EXPECT_EQ(setrlimit(RLIMIT_AS, &small), 0);
+    const pid_t process = start(arguments);
+    EXPECT_EQ(setrlimit(RLIMIT_AS, &old), 0);
+    return wait(process);
+  }
 };
 
 TEST_F(NoThreads, ARunWritesTheSameFiles) {
@@ -93,14 +104,8 @@ TEST_F(NoThreads, ABenchmarkReplacesTheSame) {
 // Of memory, too: whatever the limit is, the answer is right, or one line says what is missing.
 TEST_F(NoThreads, LittleMemoryIsAnErrorNoCrash) {
   const std::string usual = run({"check", "tangled.off"}).out;
-  rlimit old{};
-  ASSERT_EQ(getrlimit(RLIMIT_AS, &old), 0);
   for (rlim_t megabytes = 48; megabytes < 400; megabytes += megabytes / 6) {
-    const rlimit small{megabytes << 20, old.rlim_max};
-    ASSERT_EQ(setrlimit(RLIMIT_AS, &small), 0);
-    const pid_t process = start({"check", "tangled.off"});
-    ASSERT_EQ(setrlimit(RLIMIT_AS, &old), 0);
-    const Result result = wait(process);
+    const Result result = run_limited(megabytes, {"check", "tangled.off"});
     SCOPED_TRACE(std::to_string(megabytes) + " MiB: " + result.err);
     if (result.code == 127) continue;  // not even its libraries could be loaded
     if (result.err.empty()) {
@@ -110,6 +115,17 @@ TEST_F(NoThreads, LittleMemoryIsAnErrorNoCrash) {
       EXPECT_EQ(result.err, "kinemesh: out of memory\n");
       EXPECT_EQ(result.code, 3);
     }
+  }
+}
+
+// A run, too, that has begun: this is not the code of a step without valid mesh.
+TEST_F(NoThreads, LittleMemoryInARunIsNoInvalidMesh) {
+  for (const rlim_t megabytes : {88, 96, 104, 112, 120}) {
+    const Result result = run_limited(megabytes, {"run", "s.toml", "-o", "little", "-q", "--force"});
+    SCOPED_TRACE(std::to_string(megabytes) + " MiB: " + result.err);
+    if (result.code == 127) continue;
+    EXPECT_EQ(result.code, result.err.empty() ? 0 : 3);
+    EXPECT_EQ(result.err.empty(), result.err.find("out of memory") == std::string::npos);
   }
 }
 

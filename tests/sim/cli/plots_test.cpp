@@ -63,7 +63,8 @@ class Plots : public ProgramTest {
   std::string said_;
 };
 
-// What would do something if it were not quoted for gnuplot, once anywhere and once in the folder of the plots.
+// What would do something if it were not quoted for gnuplot, once anywhere and once in the folder of the
+// plots.
 std::vector<std::string> hostile_texts(const fs::path& folder) {
   const std::string touch = "touch " + (folder / "PWNED").string();
   std::vector<std::string> texts{"`" + touch + "`",

@@ -34,8 +34,8 @@ fs::path make_folder(const char* kind) {
   _exit(99);
 }
 
-// In the child: becomes the parent of the program, which is number 1 of a new namespace, and ends as it does. Nothing but
-// calls that are safe after fork.
+// In the child: becomes the parent of the program, which is number 1 of a new namespace, and ends as it does.
+// Nothing but calls that are safe after fork.
 void enter_namespace() {
   if (unshare(CLONE_NEWPID) != 0) _exit(98);
   const pid_t program = fork();

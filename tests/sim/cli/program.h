@@ -54,12 +54,13 @@ class ProgramTest : public ::testing::Test {
 
   pid_t start(const std::vector<std::string>& arguments, int err_file = -1) const;  // -1: kept for wait
 
-  // As the first process of a pid namespace of its own, with the number 1 there, where the system allows it; the process
-  // that is returned ends as the program does, and the program with it.
+  // As the first process of a pid namespace of its own, with the number 1 there, where the system allows it;
+  // the process that is returned ends as the program does, and the program with it.
   pid_t start_in_namespace(const std::vector<std::string>& arguments) const;
   Result wait(pid_t process) const;
 
-  // Likewise, with a terminal as its stderr, of so many columns (0: unknown). Pre: has_terminals(), as machines with /dev/pts do.
+  // Likewise, with a terminal as its stderr, of so many columns (0: unknown). Pre: has_terminals(), as
+  // machines with /dev/pts do.
   static bool has_terminals();
   Result run_on_terminal(const std::vector<std::string>& arguments, unsigned short columns = 0) const;
 

@@ -28,6 +28,8 @@ TEST_F(Usage, HelpNamesEveryCommand) {
   for (const char* command :
        {"run", "replay", "bench", "report", "draw", "check", "untangle", "convert", "list"})
     EXPECT_TRUE(has(result.out, std::string("\n  ") + command + " ")) << command;
+  EXPECT_TRUE(has(result.out, "3 memory has run out")) << result.out;
+  EXPECT_TRUE(has(result.out, "4 internal error")) << result.out;
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {

@@ -61,13 +61,13 @@ class Drawings(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         (cls.folder / "m.off").write_text(tangled_grid())
         for strategy in ("global", "local"):
-            done = program("untangle", cls.folder / "m.off", "-o", cls.folder / f"{strategy}.off", "--strategy",
-                           strategy, "--report", cls.folder / f"{strategy}.json")
+            done = program("untangle", cls.folder / "m.off", "-o", cls.folder / f"{strategy}.off",
+                           "--strategy", strategy, "--report", cls.folder / f"{strategy}.json")
             assert done.returncode == 0, done.stderr
         cls.report = json.loads((cls.folder / "local.json").read_text())
         cls.seed = cls.report["regions"][0]["seed"]
-        done = program("untangle", cls.folder / "m.off", "-o", cls.folder / "seed.off", "--strategy", "local", "--seed",
-                       cls.seed, "--report", cls.folder / "seed.json")
+        done = program("untangle", cls.folder / "m.off", "-o", cls.folder / "seed.off", "--strategy", "local",
+                       "--seed", cls.seed, "--report", cls.folder / "seed.json")
         assert done.returncode in (0, 1), done.stderr
 
     def draw(self, *arguments, out="f.svg", mesh="m.off"):
@@ -85,7 +85,8 @@ class Drawings(unittest.TestCase):
             n = len(largest["faces"]) + largest["padding_faces"]
             self.assertEqual(titles[2], f"R*: {n} triangles go, drawn over each other")
             self.assertIn("shadow X", titles[1])
-            self.assertEqual("elsewhere stay" in titles[3], report == "seed" and len(self.report["regions"]) > 1)
+            others = report == "seed" and len(self.report["regions"]) > 1
+            self.assertEqual("elsewhere stay" in titles[3], others)
             self.assertEqual(svg.count('fill="#e69f00"'), n)
             self.assertEqual(svg.count('fill="#009e73"'), n)
 
@@ -108,20 +109,25 @@ class Drawings(unittest.TestCase):
         self.assertLess(len(part), len(whole) / 2)
 
     def test_any_title_makes_a_well_formed_picture(self):
-        wanted = [(bytes(range(1, 256)), r"\x01\x02\x03\x04\x05\x06\x07\x08\t\n\x0b"), (b"\xff\xfe", r"\xff\xfe"),
+        wanted = [(bytes(range(1, 256)), r"\x01\x02\x03\x04\x05\x06\x07\x08\t\n\x0b"),
+                  (b"\xff\xfe", r"\xff\xfe"),
                   (b"</text><script>alert(1)</script>", "</text><script>alert(1)</script>"),
-                  (b"]]>&#0;<!-- &amp; %s", "]]>&#0;<!-- &amp; %s"), ("\ufffe\uffff".encode(), r"\ufffe\uffff"),
-                  ("\u202e\u2028\x85".encode(), r"\u202e\u2028\u0085"), ("\xe9t\xe9 \u7ffc".encode(), "\xe9t\xe9 \u7ffc"),
+                  (b"]]>&#0;<!-- &amp; %s", "]]>&#0;<!-- &amp; %s"),
+                  ("\ufffe\uffff".encode(), r"\ufffe\uffff"),
+                  ("\u202e\u2028\x85".encode(), r"\u202e\u2028\u0085"),
+                  ("\xe9t\xe9 \u7ffc".encode(), "\xe9t\xe9 \u7ffc"),
                   (b"x" * 100_000, "x" * 1000 + "...")]
         for title, shown in wanted:
             svg = self.draw("--title", os.fsdecode(title))
             self.assertIn(shown, "".join(xml.etree.ElementTree.fromstring(svg).itertext()))
-            self.assertEqual(self.draw("--title", os.fsdecode(title), "--width", 100, out="f.png")[:4], b"\x89PNG")
+            picture = self.draw("--title", os.fsdecode(title), "--width", 100, out="f.png")
+            self.assertEqual(picture[:4], b"\x89PNG")
 
     def test_a_region_of_any_shape_keeps_to_the_page(self):
         for zoom in ("0,0,1e-300,1", "-1e308,-1e308,1e308,1e308", "0,0,1e308,1e-308", "0,0,5e-324,5e-324"):
             svg = self.draw("--region", self.folder / "seed.json", f"--zoom={zoom}").decode()
-            width, height = (float(n) for n in re.match(r'<svg [^>]*width="([^"]*)" height="([^"]*)"', svg).groups())
+            size = re.match(r'<svg [^>]*width="([^"]*)" height="([^"]*)"', svg)
+            width, height = (float(n) for n in size.groups())
             self.assertEqual(width, 1000)
             self.assertLessEqual(height, 10 * width + 100)
             self.assertNotIn("nan", svg)
@@ -147,8 +153,10 @@ class Drawings(unittest.TestCase):
                   (["-o", "f.svg", "--zoom", "1,0,0,1"], "--zoom: X0,Y0,X1,Y1 expected"),
                   (["-o", "f.svg", "--region", "m.off"], "m.off: the report of kinemesh untangle expected"),
                   (["-o", "f.svg", "--region", "bad.json"], "bad.json: damaged: "),
-                  (["-o", "f.svg", "--region", "other.json"], "other.json: is not the report of untangling m.off"),
-                  (["-o", "f.svg", "--region", "seed.json", "--number", "7"], "--number 7: seed.json has regions 0 to 0"),
+                  (["-o", "f.svg", "--region", "other.json"],
+                   "other.json: is not the report of untangling m.off"),
+                  (["-o", "f.svg", "--region", "seed.json", "--number", "7"],
+                   "--number 7: seed.json has regions 0 to 0"),
                   (["-o", "f.svg", "--number", "0"], "--number goes with --region"),
                   (["-o", "f.svg", "--step", "1"], "patches.bin expected"),
                   ([".", "-o", "f.svg"], ".: a folder: --step says which")]

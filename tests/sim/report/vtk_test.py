@@ -43,7 +43,8 @@ class Series(unittest.TestCase):
                 self.assertAlmostEqual(grid.GetFieldData().GetArray("TimeValue").GetValue(0), n * 0.02)
                 points = [grid.GetPoint(v) for v in range(grid.GetNumberOfPoints())]
                 first = first or points
-                cells = [tuple(grid.GetCell(f).GetPointId(k) for k in range(3)) for f in range(grid.GetNumberOfCells())]
+                cells = [tuple(grid.GetCell(f).GetPointId(k) for k in range(3))
+                         for f in range(grid.GetNumberOfCells())]
                 cell_data = grid.GetCellData()
                 replaced = [v for v, in values(cell_data, "replaced")]
                 regions = [v for v, in values(cell_data, "region")]

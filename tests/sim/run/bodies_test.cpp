@@ -117,7 +117,8 @@ TEST_F(BodyRuns, AreBenchedOnTheSamePositions) {
   EXPECT_EQ(rounds, 36);
 }
 
-// Steps of a body that comes to rest after some of them: from then on no bit changes. `look` sees each outcome.
+// Steps of a body that comes to rest after some of them: from then on no bit changes. `look` sees each
+// outcome.
 template <class Look>
 void expect_rest(const std::string& text, int resting_from, const Look& look) {
   const Scenario scenario = parse_scenario(text, "rest.toml");

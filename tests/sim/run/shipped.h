@@ -1,5 +1,5 @@
-// Scenarios that come with the program, and layers/, which came with it before bodies: borders that move within a layer,
-// and tangle, as those of bodies do not.
+// Scenarios that come with the program, and layers/, which came with it before bodies: borders that move
+// within a layer, and tangle, as those of bodies do not.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// Scenarios and overrides that are nested too deep, or are dear to parse, are refused before the parser sees them.
+// Scenarios and overrides that are nested too deep, or are dear to parse, are refused before the parser sees
+// them.
 #include "sim/scenario/toml_text.h"
 
 #include <gmock/gmock.h>

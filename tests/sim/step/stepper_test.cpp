@@ -153,6 +153,17 @@ TEST(Stepper, NamesPositionsThatAreNotFinite) {
   }
 }
 
+// All of them finite, but for the frame that would have to lie around them.
+TEST(Stepper, NamesAFrameThatCannotFollow) {
+  Stepper stepper = on(grid(6));
+  auto next = positions_of(stepper);
+  for (Point& p : next) p = Point(1.2e308 * p.x, 1.2e308 * p.y) + Point(5e307, 0);
+  const Defect defect = failed_step(stepper, next);
+  EXPECT_EQ(defect.kind, DefectKind::NonFinitePosition);
+  EXPECT_THAT(defect.message(), HasSubstr("a corner of the frame"));
+  EXPECT_THAT(defect.message(), HasSubstr("at time 0.5"));
+}
+
 TEST(Stepper, NamesTheFieldThatIsNotFinite) {
   Stepper stepper = on(grid(6));
   const Motion motion(stepper.mesh(), {{make_field("expression", {{"u", "1/(t-0.5)"}, {"v", "0"}}), {}}}, {},

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <memory>
+#include <new>
 #include <stdexcept>
 
 #include "kinemesh/build.h"
@@ -160,6 +161,57 @@ TEST(ThrowingFieldOfARun, EndsItAndLosesNothing) {
     ASSERT_FALSE(go(name.c_str(), 1L << 40).stopped);
     EXPECT_EQ(test::results_in(folder / name), expected);
   }
+}
+
+template <class Error>
+class ThrowsInTheSecondStep : public VelocityField {
+ public:
+  std::string_view name() const override { return "throws in the second step"; }
+  Point velocity(const Point&, double t) const override {
+    if (t > 0.15) throw Error();
+    return {0.0, 0.0};
+  }
+};
+
+struct OurMistake : std::logic_error {
+  OurMistake() : std::logic_error("this cannot be") {}
+};
+
+struct TheirMistake : std::runtime_error {
+  TheirMistake() : std::runtime_error("this is too much") {}
+};
+
+template <class Error>
+RunSummary stopped_by(const std::filesystem::path& folder, const std::string& name) {
+  static const bool is_registered = [&] {
+    register_field({name, "for a test", {}}, [](const CheckedParameters&) {
+      return AnyField(std::make_shared<ThrowsInTheSecondStep<Error>>());
+    });
+    return true;
+  }();
+  (void)is_registered;
+  const auto scenario = parse_scenario("[mesh]\nshape = 'square'\nvertices = 60\n[[motion]]\nfield = '" +
+                                           name + "'\n[time]\ndt = 0.1\nsteps = 9\n",
+                                       (folder / "s.toml").string());
+  RunObserver silent;
+  RunOptions options;
+  options.directory = folder / name;
+  return run(scenario, options, silent);
+}
+
+// What an exception is about decides by what code the program exits.
+TEST(Run, TellsLackOfMemoryFromMistakes) {
+  const test::TemporaryFolder folder;
+  const auto memory = stopped_by<std::bad_alloc>(folder / "", "forgetful");
+  EXPECT_EQ(memory.stopped, "out of memory");
+  EXPECT_EQ(memory.stop_cause, StopCause::Memory);
+  EXPECT_EQ(memory.steps, 1);
+  const auto ours = stopped_by<OurMistake>(folder / "", "mistaken");
+  EXPECT_EQ(ours.stopped, "internal error: this cannot be");
+  EXPECT_EQ(ours.stop_cause, StopCause::Bug);
+  const auto theirs = stopped_by<TheirMistake>(folder / "", "demanding");
+  EXPECT_EQ(theirs.stopped, "this is too much");
+  EXPECT_EQ(theirs.stop_cause, StopCause::Other);
 }
 
 }  // namespace

@@ -160,7 +160,8 @@ TEST(JointStar, DoesNotDependOnHowTheMeshIsStored) {
       Mesh mesh = scattered(domain_number(static_cast<int>(seed) % n_domains, seed).mesh, 1.0, seed);
       EXPECT_TRUE(repair(mesh));
       const MeshData data = mesh.domain();
-      mesh = is_turned ? disordered(shuffled(data, seed), {.frame = 0.6}, seed) : build_mesh(data, {.frame = 0.25});
+      mesh = is_turned ? disordered(shuffled(data, seed), {.frame = 0.6}, seed)
+                       : build_mesh(data, {.frame = 0.25});
       const auto free = free_vertices(mesh);
       const std::vector<Point> best = JointStar(mesh, free).best_places();
       std::vector<std::pair<int, Point>> places;

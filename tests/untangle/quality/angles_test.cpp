@@ -463,7 +463,8 @@ TEST(Angles, OnCurvesDoNotDependOnHowTheMeshIsStored) {
     const MeshData annulus = make_annulus(200, seed);
     const auto circles = circles_of(annulus);
     const MeshData data = crowded(annulus, circles, seed);
-    Mesh mesh = build_mesh(data, {.frame = 0.25}), other = disordered(shuffled(data, seed), {.frame = 0.6}, seed);
+    Mesh mesh = build_mesh(data, {.frame = 0.25}),
+         other = disordered(shuffled(data, seed), {.frame = 0.6}, seed);
     improve_angles(mesh, {.angle = 30.0}, freedom_on(circles, mesh));
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
     improve_angles(other, {.angle = 30.0}, freedom_on(circles, other));

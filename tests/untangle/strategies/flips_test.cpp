@@ -1,4 +1,5 @@
-// Untangling by edge flips: what they allow is judged by exact integers, what they leave is valid or untouched.
+// Untangling by edge flips: what they allow is judged by exact integers, what they leave is valid or
+// untouched.
 #include "untangle/strategies/flips.h"
 
 #include <gmock/gmock.h>

@@ -165,7 +165,8 @@ TEST(Kinetic, FlipsTheEdgeThatIsCrossed) {
 
 // --- at the same time ---
 
-// A whole row rises, half a cell to the side, through other rows: everything between two rows is flat at once.
+// A whole row rises, half a cell to the side, through other rows: everything between two rows is flat at
+// once.
 TEST(Kinetic, TakesRowsThroughRows) {
   for (int n = 3; n <= 8; ++n) {
     for (int to = 1; to < 2 * n; to += 2) {
@@ -228,8 +229,8 @@ TEST(Kinetic, LetsAVertexLeaveThroughAConstraintAndComeBack) {
   EXPECT_GT(totals.stuck, 0);
 }
 
-// Two vertices change places, through each other: one turns around the other. Where a third is in their middle
-// three meet, and what is tangled is replaced: 8 pairs of the 9 vertices.
+// Two vertices change places, through each other: one turns around the other. Where a third is in their
+// middle three meet, and what is tangled is replaced: 8 pairs of the 9 vertices.
 TEST(Kinetic, LetsVerticesMeetOnTheirWay) {
   Random random(2);
   const Mesh mesh = build_mesh(random_grid(4, 4, random));
