@@ -293,15 +293,15 @@ TEST(Bounded, DeepXmlIsQuick) {
 // Numbers that are counts, and more of them than the file can hold.
 TEST(Bounded, CountsTakeNoMemoryBeforeTheFileProvesThem) {
   const std::vector<std::pair<Format, std::string>> heads{
-      {Format::Off, "OFF\n300000000 1 0\n"},
-      {Format::Off, "OFF\n1 300000000 0\n"},
+      {Format::Off, "OFF\n200000000 1 0\n"},
+      {Format::Off, "OFF\n1 200000000 0\n"},
       {Format::Ply,
-       "ply\nformat ascii 1.0\nelement vertex 300000000\nproperty double x\nproperty double y\n" + ply_end},
-      {Format::Su2, "NDIME= 2\nNELEM= 300000000\n"},
-      {Format::Su2, "NDIME= 2\nNPOIN= 300000000\n"},
-      {Format::Gmsh, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n300000000\n"},
-      {Format::Gmsh, gmsh_head + "$Nodes\n1 300000000 1 300000000\n"},
-      {Format::Gmsh, gmsh_head + gmsh_nodes + "$Elements\n1 300000000 1 1\n1 1 1 300000000\n"}};
+       "ply\nformat ascii 1.0\nelement vertex 200000000\nproperty double x\nproperty double y\n" + ply_end},
+      {Format::Su2, "NDIME= 2\nNELEM= 200000000\n"},
+      {Format::Su2, "NDIME= 2\nNPOIN= 200000000\n"},
+      {Format::Gmsh, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n200000000\n"},
+      {Format::Gmsh, gmsh_head + "$Nodes\n1 200000000 1 200000000\n"},
+      {Format::Gmsh, gmsh_head + gmsh_nodes + "$Elements\n1 200000000 1 1\n1 1 1 200000000\n"}};
   for (const auto& [format, text] : heads)
     EXPECT_THAT(error_without_memory(text, format), HasSubstr("more than the rest of the file can hold"));
 }
