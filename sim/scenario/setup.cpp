@@ -84,9 +84,7 @@ void require_file(const AnyField& field, double end, const Where& where, const F
   }
 }
 
-// Terms of the motion; markers that are moved by one of them are added to `border` where it does not name
-// them.
-std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
+std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh) {
   std::vector<MotionTerm> terms;
   const MarkerNames names(mesh.marker_names().begin(), mesh.marker_names().end());
   SharedFields fields;
@@ -97,10 +95,8 @@ std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, Bor
                  [&](const RecordedPositions& record) { record.require_initial(mesh.user_positions()); });
     for (const std::string& part : motion.on) {
       const Restriction restriction = parse_restriction(part, motion.blend);
-      if (const auto* on = std::get_if<OnMarker>(&restriction.on)) {
-        if (!names.contains(on->name)) refuse_marker(mesh, on->name, motion.where_of("on"));
-        border.by_marker.emplace(on->name, BorderCondition::Moving);
-      }
+      const auto* on = std::get_if<OnMarker>(&restriction.on);
+      if (on && !names.contains(on->name)) refuse_marker(mesh, on->name, motion.where_of("on"));
       if (&part == &motion.on.front())
         term.where = restriction;
       else
@@ -110,8 +106,8 @@ std::vector<MotionTerm> terms_of(const Scenario& scenario, const Mesh& mesh, Bor
   return terms;
 }
 
-// Likewise. A marker that [border] holds still cannot be a body's.
-std::vector<BodySpec> bodies_of(const Scenario& scenario, const Mesh& mesh, BorderConditions& border) {
+// A marker that [border] holds still cannot be a body's.
+std::vector<BodySpec> bodies_of(const Scenario& scenario, const Mesh& mesh, const BorderConditions& border) {
   std::vector<BodySpec> bodies;
   const MarkerNames names(mesh.marker_names().begin(), mesh.marker_names().end());
   SharedFields fields;
@@ -121,8 +117,8 @@ std::vector<BodySpec> bodies_of(const Scenario& scenario, const Mesh& mesh, Bord
       if (!part.starts_with("marker:")) continue;
       const std::string marker = part.substr(7);
       if (!names.contains(marker)) refuse_marker(mesh, marker, body.where_of("on"));
-      const auto [condition, is_new] = border.by_marker.emplace(marker, BorderCondition::Moving);
-      if (!is_new && condition->second != BorderCondition::Moving)
+      const auto condition = border.by_marker.find(marker);
+      if (condition != border.by_marker.end() && condition->second != BorderCondition::Moving)
         throw error_at(
             scenario.border.marker_where.at(marker),
             "the marker '" + marker + "' is of a body, which moves it; \"moving\" or nothing expected");
@@ -215,9 +211,8 @@ std::optional<int> leaving_hull_vertex(const Mesh& mesh, const Freedom& freedom)
   return found == mesh.hull().end() ? std::nullopt : std::optional(*found);
 }
 
-void require_still_hull(const Scenario& scenario, const Mesh& mesh, const BorderConditions& border) {
+void require_still_hull(const Scenario& scenario, const Mesh& mesh, const Freedom& freedom) {
   if (!mesh.frame().empty()) return;
-  const Freedom freedom(mesh, border);
   const auto vertex = leaving_hull_vertex(mesh, freedom);
   if (!vertex) return;
   const bool is_sliding = freedom.of(*vertex) == BorderCondition::Slide;
@@ -276,11 +271,11 @@ SetUp set_up(const Scenario& scenario, Mesh mesh) {
   BorderConditions border = border_of(scenario, mesh);
   require_labels(scenario.interior, mesh);
   const auto bodies = bodies_of(scenario, mesh, border);
-  auto terms = terms_of(scenario, mesh, border);
+  auto terms = terms_of(scenario, mesh);
   try {
-    require_still_hull(scenario, mesh, border);
     Motion motion(mesh, std::move(terms), std::move(border), scenario.time.integrator, bodies,
                   scenario.interior.options);
+    require_still_hull(scenario, mesh, motion.freedom());
     require_body_files(scenario, motion, bodies);
     auto notes = motion.notes();
     add_notes_on_idle_motions(scenario, mesh, motion, notes);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/sort_distinct.h"
+#include "core/base/stopwatch.h"
 #include "kinemesh/predicates.h"
 #include "untangle/walk/detect.h"
 
@@ -68,6 +69,15 @@ int seed_of(const Mesh& mesh, const Survey& found) {
 }
 
 }  // namespace
+
+Tangles detect(const Mesh& mesh, const RepairOptions& options, RepairRecord& record) {
+  const Stopwatch detecting;
+  auto tangles = detect(mesh, options.minima, options.moved);
+  record.inverted = static_cast<int>(tangles.inverted.size());
+  record.degenerate = static_cast<int>(tangles.flat.size());
+  record.detect_ms = detecting.milliseconds();
+  return tangles;
+}
 
 RegionRecord describe_region(const Mesh& mesh, const Hole& region) {
   RegionRecord record;

@@ -22,11 +22,7 @@ std::optional<RepairOutcome> GlobalUntangling::repair_within(const Limits& limit
                                                              const RepairOptions& options) {
   RepairOutcome outcome;
   auto& record = outcome.record;
-  const Stopwatch detecting;
-  const auto tangles = detect(mesh, options.minima, options.moved);
-  record.inverted = static_cast<int>(tangles.inverted.size());
-  record.degenerate = static_cast<int>(tangles.flat.size());
-  record.detect_ms = detecting.milliseconds();
+  const auto tangles = detect(mesh, options, record);
   if (tangles.empty()) {
     record.escaped = count_escaped(mesh, options);
     return outcome;

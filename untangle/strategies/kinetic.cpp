@@ -27,11 +27,7 @@ RepairOutcome KineticUntangling::repair(Mesh& mesh, const RepairOptions& options
   require_before(mesh, options.before);
   RepairOutcome outcome;
   auto& record = outcome.record;
-  const Stopwatch detecting;
-  const auto tangles = detect(mesh, options.minima, options.moved);
-  record.inverted = static_cast<int>(tangles.inverted.size());
-  record.degenerate = static_cast<int>(tangles.flat.size());
-  record.detect_ms = detecting.milliseconds();
+  const auto tangles = detect(mesh, options, record);
 
   const Stopwatch moving;
   Undo undo(mesh);

@@ -86,16 +86,15 @@ LocalUntangling::LocalUntangling(LocalUntangling&&) noexcept = default;
 LocalUntangling& LocalUntangling::operator=(LocalUntangling&&) noexcept = default;
 
 RepairOutcome LocalUntangling::repair(Mesh& mesh, const RepairOptions& options) {
-  const Stopwatch detecting;
-  const auto tangles = detect(mesh, options.minima, options.moved);
-  const double detect_ms = detecting.milliseconds();
+  RepairRecord found;
+  const auto tangles = detect(mesh, options, found);
   const auto components = inverted_components(mesh, tangles.inverted);
   auto outcome = repair_seeds(mesh, seeds_by_user_number(mesh, tangles), options);
-  outcome.record.inverted = static_cast<int>(tangles.inverted.size());
-  outcome.record.degenerate = static_cast<int>(tangles.flat.size());
+  outcome.record.inverted = found.inverted;
+  outcome.record.degenerate = found.degenerate;
   outcome.record.components = components.count;
   outcome.record.doubled_edges = 0;  // an upright mesh has none
-  outcome.record.detect_ms += detect_ms;
+  outcome.record.detect_ms += found.detect_ms;
   return outcome;
 }
 

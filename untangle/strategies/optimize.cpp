@@ -165,12 +165,8 @@ class VertexOptimization::Run {
 RepairOutcome VertexOptimization::repair(Mesh& mesh, const RepairOptions& options) {
   RepairOutcome outcome;
   auto& record = outcome.record;
-  const Stopwatch detecting;
-  const auto tangles = detect(mesh, options.minima, options.moved);
-  record.inverted = static_cast<int>(tangles.inverted.size());
-  record.degenerate = static_cast<int>(tangles.flat.size());
+  const auto tangles = detect(mesh, options, record);
   record.components = inverted_components(mesh, tangles.inverted).count;
-  record.detect_ms = detecting.milliseconds();
 
   const Stopwatch sweeping;
   if (tangles.empty()) {

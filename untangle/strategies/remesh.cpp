@@ -11,11 +11,7 @@ namespace kinemesh {
 RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   RepairOutcome outcome;
   auto& record = outcome.record;
-  const Stopwatch detecting;
-  const auto tangles = detect(mesh, options.minima, options.moved);
-  record.inverted = static_cast<int>(tangles.inverted.size());
-  record.degenerate = static_cast<int>(tangles.flat.size());
-  record.detect_ms = detecting.milliseconds();
+  const auto tangles = detect(mesh, options, record);
 
   const Stopwatch working;
   const double cgal_before = mesher_.triangulator_ms();
