@@ -45,88 +45,70 @@ void check_corners(const MeshData& data) {
   }
 }
 
-// Which sides lie across each other: sides sorted by their lower vertex (counting), then by the upper one
-// within each bucket, which holds about three.
-class Twins {
+// Why sides cannot be paired: the first face in the file's order that has an edge with more than two, or the same vertices
+// as another.
+class Refusal {
  public:
-  explicit Twins(const MeshData& data) : data_(data), twin_(3 * data.triangles.size(), none) {
-    sort_by_lower_vertex();
-    for (std::size_t v = 0; v + 1 < first_.size(); ++v) match(first_[v], first_[v + 1]);
-    if (culprit_ != none) throw FaceError(culprit_, reason_);
+  explicit Refusal(const MeshData& data) {
+    for (int side = 0; side < 3 * data.n_faces(); ++side) {
+      const auto [low, high] = std::minmax({start_of(data, side), end_of(data, side)});
+      sides_.push_back({low, high, apex_of(data, side), side});
+    }
+    std::sort(sides_.begin(), sides_.end());
+    for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end) {
+      while (end < sides_.size() && sides_[end].is_beside(sides_[begin])) ++end;
+      look_at({&sides_[begin], end - begin});
+    }
   }
-  int operator[](int side) const { return twin_[side]; }
+
+  [[noreturn]] void raise() const { throw FaceError(face_, reason_); }
 
  private:
   struct Side {
-    int upper, apex, number;
+    int low, high, apex, number;
     auto operator<=>(const Side&) const = default;
+    bool is_beside(const Side& other) const { return low == other.low && high == other.high; }
+    int face() const { return number / 3; }
   };
 
-  void sort_by_lower_vertex() {
-    first_.assign(data_.points.size() + 1, 0);
-    const int n = static_cast<int>(twin_.size());
-    for (int side = 0; side < n; ++side) ++first_[lower(side) + 1];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<int> next(first_.begin(), first_.end() - 1);
-    sides_.resize(twin_.size());
-    for (int side = 0; side < n; ++side) {
-      const int upper = std::max(start_of(data_, side), end_of(data_, side));
-      sides_[next[lower(side)]++] = {upper, apex_of(data_, side), side};
+  // All sides of one edge.
+  void look_at(std::span<const Side> sides) {
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+      if (sides[i].apex != sides[i - 1].apex) continue;
+      return blame(sides[i].face(), "has the same vertices as face " + std::to_string(sides[i - 1].face()));
     }
-  }
-  int lower(int side) const { return std::min(start_of(data_, side), end_of(data_, side)); }
-
-  // The sides of one bucket.
-  void match(int begin, int end) {
-    std::sort(sides_.begin() + begin, sides_.begin() + end);
-    while (begin < end) {
-      int run = begin + 1;
-      while (run < end && sides_[run].upper == sides_[begin].upper) ++run;
-      match_edge(begin, run);
-      begin = run;
-    }
-  }
-
-  // All sides over one edge.
-  void match_edge(int begin, int end) {
-    if (end - begin == 2 && sides_[begin].apex != sides_[begin + 1].apex) {
-      twin_[sides_[begin].number] = sides_[begin + 1].number;
-      twin_[sides_[begin + 1].number] = sides_[begin].number;
-    } else if (end - begin >= 2) {
-      refuse_edge(begin, end);
-    }
-  }
-
-  void refuse_edge(int begin, int end) {
-    for (int i = begin + 1; i < end; ++i) {
-      if (sides_[i].apex != sides_[i - 1].apex) continue;
-      const int face = sides_[i].number / 3;
-      blame(face, "has the same vertices as face " + std::to_string(sides_[i - 1].number / 3));
-      return;
-    }
+    if (sides.size() < 3) return;
     std::vector<int> faces;
-    for (int i = begin; i < end; ++i) faces.push_back(sides_[i].number / 3);
+    for (const Side& side : sides) faces.push_back(side.face());
     std::nth_element(faces.begin(), faces.begin() + 2, faces.end());
-    const int side = sides_[begin].number;
-    blame(faces[2], "is one of " + std::to_string(end - begin) + " at the edge between vertices " +
-                        std::to_string(lower(side)) + " and " + std::to_string(sides_[begin].upper) +
+    blame(faces[2], "is one of " + std::to_string(sides.size()) + " at the edge between vertices " +
+                        std::to_string(sides[0].low) + " and " + std::to_string(sides[0].high) +
                         ", expected at most two");
   }
 
-  // The first face in the file's order is the one reported, whatever the order of the buckets.
   void blame(int face, std::string reason) {
-    if (culprit_ != none && culprit_ <= face) return;
-    culprit_ = face;
+    if (face_ != none && face_ <= face) return;
+    face_ = face;
     reason_ = std::move(reason);
   }
 
-  const MeshData& data_;
-  std::vector<int> twin_;
-  std::vector<int> first_;  // per vertex: begin of its bucket
   std::vector<Side> sides_;
-  int culprit_ = none;
+  int face_ = none;
   std::string reason_;
 };
+
+// Which side lies across each, whichever way it runs.
+std::vector<int> paired_sides(const MeshData& data) {
+  auto pairs = pair_sides(data.triangles, data.n_vertices(), Winding::Any);
+  const auto is_same_face = [&](int side) {
+    const int twin = pairs.opposite[side];
+    return twin != none && apex_of(data, side) == apex_of(data, twin);
+  };
+  const int n_sides = static_cast<int>(pairs.opposite.size());
+  if (pairs.conflict != none || find_first(n_sides, grain::items, is_same_face) != none)
+    Refusal(data).raise();
+  return std::move(pairs.opposite);
+}
 
 // Twice the signed area of many faces, compensated [Neumaier 1974] so that their order hardly matters. long
 // double: products of very large coordinates stay finite.
@@ -155,7 +137,8 @@ class SignedArea {
 
 class Winder {
  public:
-  explicit Winder(MeshData& data) : data_(data), twins_(data), state_(data.triangles.size(), State::Unseen) {}
+  explicit Winder(MeshData& data)
+      : data_(data), twins_(paired_sides(data)), state_(data.triangles.size(), State::Unseen) {}
 
   std::vector<std::string> run() {
     for (int face = 0; face < data_.n_faces(); ++face) {
@@ -231,7 +214,7 @@ class Winder {
   }
 
   MeshData& data_;
-  Twins twins_;
+  std::vector<int> twins_;    // per side
   std::vector<State> state_;  // per face
   std::vector<int> part_;     // faces of the connected part at hand, in the order of the walk
   std::size_t turned_faces_ = 0, turned_parts_ = 0;

@@ -82,7 +82,7 @@ class SidesByGroup {
 // it is open, and at most half full.
 class Pairing {
  public:
-  explicit Pairing(std::vector<int>& opposite) : opposite_(opposite) {}
+  Pairing(std::vector<int>& opposite, Winding winding) : opposite_(opposite), winding_(winding) {}
 
   void pair(std::span<const Entry> entries) {
     const std::size_t size = std::bit_ceil(2 * entries.size());
@@ -116,7 +116,8 @@ class Pairing {
   }
 
   void join(Entry& first, const Entry& e) {
-    const bool pairs = first.side != spoilt && opposite_[first.side] == none && first.ends[0] != e.ends[0];
+    const bool fits = winding_ == Winding::Any || first.ends[0] != e.ends[0];
+    const bool pairs = fits && first.side != spoilt && opposite_[first.side] == none;
     if (!pairs) return spoil(first, e);
     opposite_[first.side] = e.side;
     opposite_[e.side] = first.side;
@@ -133,6 +134,7 @@ class Pairing {
   }
 
   std::vector<int>& opposite_;
+  Winding winding_;
   std::vector<Entry> table_;
   int shift_ = 0;
   Entry conflict_{{none, none}, none};
@@ -140,13 +142,13 @@ class Pairing {
 
 }  // namespace
 
-SidePairs pair_sides(std::span<const Triangle> triangles, int n_vertices) {
+SidePairs pair_sides(std::span<const Triangle> triangles, int n_vertices, Winding winding) {
   const Groups groups(n_vertices);
   const SidesByGroup sides(triangles, groups);
   SidePairs pairs{std::vector<int>(3 * triangles.size(), none), none};
   std::vector<int> conflicts(n_parts(groups.count(), 1), none);
   parallel_parts(groups.count(), 1, [&](int part, int begin, int end) {
-    Pairing pairing(pairs.opposite);
+    Pairing pairing(pairs.opposite, winding);
     for (int group = begin; group < end; ++group) {
       if (!sides.of(group).empty()) pairing.pair(sides.of(group));
     }

@@ -14,9 +14,12 @@ struct SidePairs {
   int conflict = none;  // a triangle with a side that a third triangle has, or that another runs the same way
 };
 
-// Pairs sides by their end points. Pre: 0 <= corners < n_vertices. O(n + sum of d log d over vertex degrees
-// d).
-SidePairs pair_sides(std::span<const Triangle> triangles, int n_vertices);
+// Whether two sides that run the same way are a pair, too.
+enum class Winding { Consistent, Any };
+
+// Pairs sides by their end points. Pre: 0 <= corners < n_vertices. O(n).
+SidePairs pair_sides(std::span<const Triangle> triangles, int n_vertices,
+                     Winding winding = Winding::Consistent);
 
 inline Edge ends_of_side(std::span<const Triangle> triangles, int side) {
   const auto& t = triangles[side / 3];
