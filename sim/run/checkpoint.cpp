@@ -70,7 +70,7 @@ void members(Archive& archive, S& checkpoint) {
 
 namespace {
 
-constexpr binary::Kind kind{"KMCHKPT\n", 4, "checkpoint of kinemesh"};
+constexpr binary::Kind kind{"KMCHKPT\n", 5, "checkpoint of kinemesh"};
 
 constexpr const char* current_name = "checkpoint.bin";
 constexpr const char* previous_name = "checkpoint_prev.bin";

@@ -38,7 +38,7 @@ void members(Archive& archive, S& step) {
 
 namespace {
 
-constexpr binary::Kind kind{"KMFSTEP\n", 4, "failed step of kinemesh"};
+constexpr binary::Kind kind{"KMFSTEP\n", 5, "failed step of kinemesh"};
 
 }  // namespace
 

@@ -167,7 +167,7 @@ TEST(Checkpoint, IsRefusedInAnotherLayout) {
   const std::string whole = format_checkpoint(small_checkpoint());
   const std::string payload(binary::unseal(ours, whole));
   EXPECT_EQ(error_of(binary::seal(ours, payload)), "none");
-  EXPECT_THAT(error_of(binary::seal(later, payload)), HasSubstr("version 9 of the layout, 4 expected"));
+  EXPECT_THAT(error_of(binary::seal(later, payload)), HasSubstr("version 9 of the layout, 5 expected"));
   EXPECT_THAT(error_of(binary::seal(ours, payload + "x")), HasSubstr("more bytes"));
   for (size_t length = 0; length < payload.size(); length += 7)
     EXPECT_NE(error_of(binary::seal(ours, payload.substr(0, length))), "none");
