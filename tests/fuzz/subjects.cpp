@@ -186,7 +186,7 @@ Checkpoint sample_checkpoint() {
 
 Subject checkpoint_subject(const fs::path& folder) {
   const std::string sample = format_checkpoint(sample_checkpoint());
-  const binary::Kind kind{"KMCHKPT\n", 4, "checkpoint"};
+  const binary::Kind kind{"KMCHKPT\n", 5, "checkpoint"};
   return {"checkpoint", [=](Dice& dice) { return resealed(sample, kind, dice); },
           [=](const std::string& content) {
             write(folder / "checkpoint.bin", content);
@@ -215,7 +215,7 @@ std::string sample_failed_step() {
 
 Subject failed_step_subject() {
   const std::string sample = sample_failed_step();
-  const binary::Kind kind{"KMFSTEP\n", 4, "failed step"};
+  const binary::Kind kind{"KMFSTEP\n", 5, "failed step"};
   return {"failed_step", [=](Dice& dice) { return resealed(sample, kind, dice); },
           [](const std::string& content) {
             (void)replay(parse_failed_step(content));

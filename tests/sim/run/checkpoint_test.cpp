@@ -163,7 +163,7 @@ TEST(Checkpoint, IsRefusedWithAnyOtherLength) {
 
 // Sealed rightly, by a program of another version or with too little inside.
 TEST(Checkpoint, IsRefusedInAnotherLayout) {
-  const binary::Kind ours{"KMCHKPT\n", 4, "checkpoint"}, later{"KMCHKPT\n", 9, "checkpoint"};
+  const binary::Kind ours{"KMCHKPT\n", 5, "checkpoint"}, later{"KMCHKPT\n", 9, "checkpoint"};
   const std::string whole = format_checkpoint(small_checkpoint());
   const std::string payload(binary::unseal(ours, whole));
   EXPECT_EQ(error_of(binary::seal(ours, payload)), "none");
