@@ -1,5 +1,5 @@
-// The product of two vectors that change linearly from t = 0 to 1, as a quadratic of the time: of two sides of a moving
-// triangle, twice its signed area.
+// The product of two vectors that change linearly from t = 0 to 1, as a quadratic of the time: of two sides
+// of a moving triangle, twice its signed area.
 #pragma once
 
 #include "kinemesh/types.h"

@@ -45,8 +45,8 @@ void check_corners(const MeshData& data) {
   }
 }
 
-// Why sides cannot be paired: the first face in the file's order that has an edge with more than two, or the same vertices
-// as another.
+// Why sides cannot be paired: the first face in the file's order that has an edge with more than two, or the
+// same vertices as another.
 class Refusal {
  public:
   explicit Refusal(const MeshData& data) {

@@ -220,8 +220,8 @@ TEST(OverlappingMesher, WorksStageByStageOnRandomTangles) {
   EXPECT_GT(regions, 100);
 }
 
-// A crease edge that is constrained lies on the border of X where no other piece covers it, and inside X elsewhere: there
-// are extra vertices on it, and it has to be one edge again.
+// A crease edge that is constrained lies on the border of X where no other piece covers it, and inside X
+// elsewhere: there are extra vertices on it, and it has to be one edge again.
 TEST(OverlappingMesher, KeepsConstrainedCreases) {
   int overlapping = 0, repaired = 0;
   std::vector<std::uint64_t> seeds{301848, 301064, 302915, 304552, 302883, 304098, 304182};
