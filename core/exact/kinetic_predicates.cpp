@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "core/exact/vector.h"
+
 namespace kinemesh {
 
 // a + b t + c t^2, times a positive number that does not matter.
@@ -38,13 +40,7 @@ Dyadic dyadic(double x) {
 }
 
 // At one end of time, in a unit that makes all coordinates integers.
-struct ExactVector {
-  Integer x, y;
-};
-
-Integer cross(const ExactVector& u, const ExactVector& v) {
-  return u.x * v.y - u.y * v.x;
-}
+using ExactVector = Vector<Integer>;
 
 class Scale {
  public:

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/exact/vector.h"
 #include "kinemesh/predicates.h"
 
 namespace kinemesh {
@@ -23,21 +24,6 @@ std::array<Halfplane, 3> sides_of(const Shadow& t) {
   if (orientation(t[0], t[1], t[2]) == Orientation::Clockwise)
     return {{{t[1], t[0]}, {t[2], t[1]}, {t[0], t[2]}}};
   return {{{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}}};
-}
-
-template <class Number>
-struct Vector {
-  Number x, y;
-};
-
-template <class Number>
-Vector<Number> difference(const Point& p, const Point& q) {
-  return {Number(p.x) - Number(q.x), Number(p.y) - Number(q.y)};
-}
-
-template <class Number>
-Number cross(const Vector<Number>& u, const Vector<Number>& v) {
-  return u.x * v.y - u.y * v.x;
 }
 
 // The filters bound the error by the largest coordinate difference m that enters. With u = 2^-53 a difference

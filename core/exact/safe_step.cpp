@@ -13,6 +13,7 @@
 
 #include "core/base/parallel.h"
 #include "core/exact/moving_area.h"
+#include "core/exact/vector.h"
 #include "kinemesh/error.h"
 
 namespace kinemesh {
@@ -27,21 +28,11 @@ struct MovingFace {
   std::array<Point, 3> x0, x1;
 };
 
-template <class Number>
-struct Vector {
-  Number x, y;
-};
-
-template <class Number>
-Number cross(const Vector<Number>& u, const Vector<Number>& v) {
-  return Number(u.x * v.y) - Number(u.y * v.x);
-}
-
 // Twice, as a function of the share of the step.
 template <class Number>
 MovingArea<Number> area_of(const MovingFace& f) {
   const auto side = [](const std::array<Point, 3>& x, int corner) {
-    return Vector<Number>{Number(x[corner].x) - Number(x[0].x), Number(x[corner].y) - Number(x[0].y)};
+    return difference<Number>(x[corner], x[0]);
   };
   return moving_area(side(f.x0, 1), side(f.x1, 1), side(f.x0, 2), side(f.x1, 2));
 }

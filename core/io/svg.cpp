@@ -240,9 +240,9 @@ class Drawing {
 };
 
 void check_view(const ViewBox& view) {
-  const bool is_finite = std::isfinite(view.lower.x) && std::isfinite(view.lower.y) &&
-                         std::isfinite(view.upper.x) && std::isfinite(view.upper.y);
-  if (is_finite && view.lower.x < view.upper.x && view.lower.y < view.upper.y) return;
+  if (is_finite(view.lower) && is_finite(view.upper) && view.lower.x < view.upper.x &&
+      view.lower.y < view.upper.y)
+    return;
   throw InputError("the view has no inside");
 }
 

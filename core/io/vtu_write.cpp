@@ -246,7 +246,7 @@ void check_fields(const MeshData& mesh, const VtuFields& fields) {
   io::check_length(fields.region.size(), mesh.triangles.size(), "regions of faces");
   if (fields.time && !std::isfinite(*fields.time)) throw InputError("the time is not finite");
   for (const Point& d : fields.displacement) {
-    if (!std::isfinite(d.x) || !std::isfinite(d.y)) throw InputError("a displacement is not finite");
+    if (!is_finite(d)) throw InputError("a displacement is not finite");
   }
 }
 

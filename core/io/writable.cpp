@@ -19,7 +19,7 @@ void check_vertex(const MeshData& mesh, int vertex, const std::string& where) {
 void check_points(const MeshData& mesh) {
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     const Point& p = mesh.points[v];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+    if (!is_finite(p)) {
       throw InputError("vertex " + std::to_string(v) + " is not at a finite place");
     }
   }

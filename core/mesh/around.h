@@ -32,17 +32,21 @@ inline int start_of_fan(const Mesh& mesh, int vertex) {
   }
 }
 
-// Calls visit(side) for the sides that start at a vertex, each of another of its faces, counter-clockwise
-// while these are upright, from start_of_fan on.
+// Calls visit(side) for the sides that start where one does, each of another face, counter-clockwise while
+// these are upright; up to the hull.
 template <class Visit>
-void for_each_side_from(const Mesh& mesh, int vertex, const Visit& visit) {
-  if (mesh.is_isolated(vertex)) return;
-  const int first = start_of_fan(mesh, vertex);
+void for_each_side_after(const Mesh& mesh, int first, const Visit& visit) {
   int side = first;
   do {
     visit(side);
     side = mesh.opposite(Mesh::prev(side));
   } while (side != first && side != none);
+}
+
+// Likewise for all that start at a vertex, from start_of_fan on.
+template <class Visit>
+void for_each_side_from(const Mesh& mesh, int vertex, const Visit& visit) {
+  if (!mesh.is_isolated(vertex)) for_each_side_after(mesh, start_of_fan(mesh, vertex), visit);
 }
 
 // Calls visit(neighbour, side) for each edge at a vertex, with its side that starts there; counter-clockwise,
@@ -52,11 +56,11 @@ void for_each_neighbour(const Mesh& mesh, int vertex, const Visit& visit) {
   if (mesh.is_isolated(vertex)) return;
   const int first = start_of_fan(mesh, vertex);
   if (mesh.opposite(first) == none) {
-    int last = first;
-    for (int next = first; next != none; next = mesh.opposite(Mesh::prev(next))) last = Mesh::prev(next);
+    int last = none;
+    for_each_side_after(mesh, first, [&](int side) { last = Mesh::prev(side); });
     visit(mesh.from(last), last);
   }
-  for_each_side_from(mesh, vertex, [&](int side) { visit(mesh.to(side), side); });
+  for_each_side_after(mesh, first, [&](int side) { visit(mesh.to(side), side); });
 }
 
 // The edges at a vertex, one after the other, in an order that may be any.

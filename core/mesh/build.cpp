@@ -41,9 +41,9 @@ class MeshBuilder {
   void check_input() const;
   bool is_proper(int face) const;
   [[noreturn]] void refuse_face(int face) const;
-  std::vector<int> order_on_curve(std::span<const Point> points) const;
   void check_order(const std::vector<int>& order, std::size_t n) const;
-  std::array<Point, 4> frame_corners() const;
+  Box domain_box() const;
+  std::array<Point, 4> frame_corners(const Box& domain) const;
   void place_vertices();
   void place_faces();
   void embed();
@@ -125,27 +125,25 @@ void MeshBuilder::refuse_face(int face) const {
   throw FaceError(face, "this label is reserved");
 }
 
-std::array<Point, 4> MeshBuilder::frame_corners() const {
-  std::vector<Point> used;
-  for (const auto& t : data_.triangles) {
-    for (const int v : t) used.push_back(data_.points[v]);
-  }
-  const auto corners = frame_around(used, options_.frame);
-  if (!is_finite(corners[0]) || !is_finite(corners[2]))
-    throw InputError("the frame's corners are not finite, a smaller frame or smaller coordinates expected");
-  return corners;
-}
-
-// The square that it fills is that of the domain; vertices in no face need not be near.
-std::vector<int> MeshBuilder::order_on_curve(std::span<const Point> points) const {
+// Around the vertices that are in a face.
+Box MeshBuilder::domain_box() const {
   std::array<Box, most_parts> boxes;
   boxes.fill(nowhere);
   parallel_parts(data_.n_faces(), grain::items, [&](int part, int begin, int end) {
+    Box box = nowhere;
     for (int f = begin; f < end; ++f)
-      for (const int v : data_.triangles[f]) boxes[part] = hull_of(boxes[part], data_.points[v]);
+      for (const int v : data_.triangles[f]) box = hull_of(box, data_.points[v]);
+    boxes[part] = box;
   });
-  return order_along_curve(points, std::accumulate(boxes.begin(), boxes.end(), nowhere,
-                                                   [](const Box& a, const Box& b) { return hull_of(a, b); }));
+  return std::accumulate(boxes.begin(), boxes.end(), nowhere,
+                         [](const Box& a, const Box& b) { return hull_of(a, b); });
+}
+
+std::array<Point, 4> MeshBuilder::frame_corners(const Box& domain) const {
+  const auto corners = frame_around(domain, options_.frame);
+  if (!is_finite(corners[0]) || !is_finite(corners[2]))
+    throw InputError("the frame's corners are not finite, a smaller frame or smaller coordinates expected");
+  return corners;
 }
 
 void MeshBuilder::check_order(const std::vector<int>& order, std::size_t n) const {
@@ -160,15 +158,16 @@ void MeshBuilder::check_order(const std::vector<int>& order, std::size_t n) cons
 
 // The user's vertices and the corners of the frame, in their order.
 void MeshBuilder::place_vertices() {
+  const Box domain = domain_box();  // vertices in no face need not be near
   std::vector<Point> framed;
   if (options_.frame > 0.0) {
-    const auto corners = frame_corners();
+    const auto corners = frame_corners(domain);
     framed = data_.points;
     framed.insert(framed.end(), corners.begin(), corners.end());
   }
   const std::span<const Point> points = framed.empty() ? data_.points : framed;
   const std::vector<int> order =
-      order_ ? std::vector(order_->begin(), order_->end()) : order_on_curve(points);
+      order_ ? std::vector(order_->begin(), order_->end()) : order_along_curve(points, domain);
   if (order_) check_order(order, points.size());
   const int n = static_cast<int>(points.size());
   mesh_.n_user_vertices_ = data_.n_vertices();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/box.h"
 #include "kinemesh/predicates.h"
 
 namespace kinemesh {
@@ -11,12 +10,6 @@ namespace {
 
 double diagonal(const Box& box) {
   return std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
-}
-
-std::array<Point, 4> rectangle(const Box& box, double margin) {
-  const double d = margin * diagonal(box);
-  return {Point{box.low.x - d, box.low.y - d}, Point{box.high.x + d, box.low.y - d},
-          Point{box.high.x + d, box.high.y + d}, Point{box.low.x - d, box.high.y + d}};
 }
 
 // True if the hull turns at its vertex i.
@@ -44,13 +37,13 @@ void enlarge(const Mesh& mesh, std::span<Point> next) {
   const Point low = next[mesh.frame()[0]], high = next[mesh.frame()[2]];
   const bool is_inside = low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y;
   if (is_inside) return;
-  const auto fresh = rectangle(box, mesh.frame_margin());
+  const auto fresh = frame_around(box, mesh.frame_margin());
   for (int i = 0; i < 4; ++i) next[mesh.frame()[i]] = fresh[i];
 }
 
 std::optional<Defect> non_finite_corner(const Mesh& mesh, std::span<const Point> next) {
   for (const int corner : mesh.frame()) {
-    if (std::isfinite(next[corner].x) && std::isfinite(next[corner].y)) continue;
+    if (is_finite(next[corner])) continue;
     return Defect{.kind = DefectKind::NonFinitePosition,
                   .vertices = {none},
                   .where = mesh.position(corner),
@@ -61,10 +54,10 @@ std::optional<Defect> non_finite_corner(const Mesh& mesh, std::span<const Point>
 
 }  // namespace
 
-std::array<Point, 4> frame_around(std::span<const Point> points, double margin) {
-  Box box = nowhere;
-  for (const auto& p : points) box = hull_of(box, p);
-  return rectangle(box, margin);
+std::array<Point, 4> frame_around(const Box& box, double margin) {
+  const double d = margin * diagonal(box);
+  return {Point{box.low.x - d, box.low.y - d}, Point{box.high.x + d, box.low.y - d},
+          Point{box.high.x + d, box.high.y + d}, Point{box.low.x - d, box.high.y + d}};
 }
 
 std::optional<Defect> follow(const Mesh& mesh, std::span<Point> next) {
@@ -74,7 +67,7 @@ std::optional<Defect> follow(const Mesh& mesh, std::span<Point> next) {
   const auto gaps = {box.low.x - low.x, box.low.y - low.y, high.x - box.high.x, high.y - box.high.y};
   const double margin = mesh.frame_margin() * diagonal(box);
   const bool stays = std::min(gaps) >= 0.5 * margin && std::max(gaps) <= 2.0 * margin;
-  const auto fresh = rectangle(box, mesh.frame_margin());
+  const auto fresh = frame_around(box, mesh.frame_margin());
   for (int i = 0; i < 4; ++i) {
     const int corner = mesh.frame()[i];
     next[corner] = stays ? mesh.position(corner) : fresh[i];

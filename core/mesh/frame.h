@@ -5,14 +5,14 @@
 #include <optional>
 #include <span>
 
+#include "core/base/box.h"
 #include "kinemesh/defect.h"
 #include "kinemesh/mesh.h"
 
 namespace kinemesh {
 
-// Corners, counter-clockwise from lower left, at `margin` bounding-box diagonals from the bounding box of
-// `points`.
-std::array<Point, 4> frame_around(std::span<const Point> points, double margin);
+// Corners, counter-clockwise from lower left, at `margin` diagonals of the box from it.
+std::array<Point, 4> frame_around(const Box& box, double margin);
 
 // The frame follows a drifting domain: where the domain of `mesh` has come closer to it than half its margin,
 // or has left more than twice its margin, new corners are written to `next`; otherwise the old ones. Where

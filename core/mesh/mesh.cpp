@@ -46,6 +46,18 @@ void Mesh::link(int side, int word) noexcept {
   if (word >> 1 != none) this->word(word >> 1) = side << 1 | (word & 1);
 }
 
+void Mesh::write(int face, int label, const Triangle& corners, const Triangle& words) noexcept {
+  n_user_faces_ += (label != padding_label) - !is_padding(face);
+  labels_[face] = label;
+  set_corners(face, corners);
+  for (int k = 0; k < 3; ++k) link(side(face, k), words[k]);
+}
+
+void Mesh::set_corners(int face, const Triangle& corners) noexcept {
+  triangles_[face] = corners;
+  for (int k = 0; k < 3; ++k) side_from_[corners[k]] = side(face, k);
+}
+
 void Mesh::forget_constraint(int number) noexcept {
   const int side = side_of_constraint_[number];
   if (constraint_at_.find(side) == number) constraint_at_.erase(side);
@@ -58,21 +70,12 @@ void Mesh::remember_constraint(int number, int side) noexcept {
 
 // The border is read before anything is written: its sides may be sides of the new faces.
 void Mesh::splice(Patch& patch) noexcept {
-  const int n = static_cast<int>(patch.faces.size());
   for (const auto& line : patch.lines) forget_constraint(line.constraint);
   for (auto& across : patch.across)
     for (int& side : across)
       side = side < 0 ? word(~side) : Mesh::side(patch.faces[face_of(side)], corner_of(side)) << 1;
-  for (int i = 0; i < n; ++i) {
-    const int face = patch.faces[i];
-    n_user_faces_ += (patch.labels[i] != padding_label) - !is_padding(face);
-    labels_[face] = patch.labels[i];
-    triangles_[face] = patch.triangles[i];
-    for (int k = 0; k < 3; ++k) {
-      side_from_[patch.triangles[i][k]] = side(face, k);
-      link(side(face, k), patch.across[i][k]);
-    }
-  }
+  for (std::size_t i = 0; i < patch.faces.size(); ++i)
+    write(patch.faces[i], patch.labels[i], patch.triangles[i], patch.across[i]);
   for (const auto& [on, number] : patch.lines) {
     const int side = Mesh::side(patch.faces[face_of(on)], corner_of(on));
     link(side, word(side) | 1);
@@ -84,8 +87,7 @@ void Mesh::splice(Patch& patch) noexcept {
 int Mesh::rewrite_from_lowest(int face, Triangle corners) noexcept {
   const int lowest = static_cast<int>(std::min_element(corners.begin(), corners.end()) - corners.begin());
   std::rotate(corners.begin(), corners.begin() + lowest, corners.end());
-  triangles_[face] = corners;
-  for (int k = 0; k < 3; ++k) side_from_[corners[k]] = side(face, k);
+  set_corners(face, corners);
   return side(face, (3 - lowest) % 3);
 }
 
@@ -126,14 +128,8 @@ void Mesh::restore(std::size_t n, const At& at) noexcept {
   };
   for_each_line([&](int number, int) { forget_constraint(number); });
   for (std::size_t i = n; i-- > 0;) {
-    const auto& [face, label, corners, across, constraints] = at(i);
-    n_user_faces_ += (label != padding_label) - !is_padding(face);
-    labels_[face] = label;
-    triangles_[face] = corners;
-    for (int k = 0; k < 3; ++k) {
-      side_from_[corners[k]] = side(face, k);
-      link(side(face, k), across[k]);
-    }
+    const FaceState& state = at(i);
+    write(state.face, state.label, state.corners, state.across);
   }
   for_each_line([&](int number, int side) { side_of_constraint_[number] = lower(side); });
   for_each_line([&](int number, int) {

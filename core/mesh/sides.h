@@ -1,4 +1,4 @@
-// Sides of bare triangles, before there are sides: side 3f + k runs from corner k of triangle f to
+// Sides of bare triangles, before there is a mesh: side 3f + k runs from corner k of triangle f to
 // corner k + 1.
 #pragma once
 

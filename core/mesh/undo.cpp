@@ -27,13 +27,6 @@ std::vector<int> Undo::rewritten_faces() const {
   return faces;
 }
 
-std::vector<FaceState> states_of(const Mesh& mesh, std::span<const int> faces) {
-  std::vector<FaceState> states;
-  states.reserve(faces.size());
-  for (const int face : faces) states.push_back(mesh.save(face));
-  return states;
-}
-
 void Undo::take_back() noexcept {
   mesh_.restore(old_);
   old_.clear();

@@ -25,6 +25,17 @@ class Undo {
   std::vector<int> rewritten_faces() const;  // ascending, each once
 
   void keep() noexcept { old_.clear(); }
+
+  // Calls look() while the mesh is as it was before; then all is there again, and kept. If look() throws, the
+  // mesh stays as it was. faces: those rewritten. Takes memory before, and none afterwards.
+  template <class Look>
+  void look_back(std::span<const int> faces, const Look& look) {
+    std::vector<FaceState> now;
+    for (const int face : faces) now.push_back(mesh_.save(face));
+    take_back();
+    look();
+    mesh_.restore(now);
+  }
   void take_back() noexcept;  // all that was not kept, bit for bit
 
  private:
@@ -33,8 +44,5 @@ class Undo {
   Mesh& mesh_;
   std::vector<FaceState> old_;  // the latest last
 };
-
-// Faces as they are, ready for Mesh::restore.
-std::vector<FaceState> states_of(const Mesh& mesh, std::span<const int> faces);
 
 }  // namespace kinemesh

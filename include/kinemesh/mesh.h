@@ -149,6 +149,8 @@ class Mesh {
 
   int& word(int side) { return across_[face_of(side)][corner_of(side)]; }
   void link(int side, int word) noexcept;
+  void write(int face, int label, const Triangle& corners, const Triangle& words) noexcept;
+  void set_corners(int face, const Triangle& corners) noexcept;
   int rewrite_from_lowest(int face, Triangle corners) noexcept;
   template <class At>
   void restore(std::size_t n, const At& at) noexcept;

@@ -48,8 +48,7 @@ bool all_finite(const std::vector<double>& v) {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
 }
 bool all_finite(const std::vector<Point>& v) {
-  return std::all_of(v.begin(), v.end(),
-                     [](const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); });
+  return std::all_of(v.begin(), v.end(), is_finite);
 }
 
 template <class List>

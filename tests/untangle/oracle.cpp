@@ -113,7 +113,7 @@ class Shadows {
   std::vector<Shadow> shadows_;
 };
 
-// Classes of `faces` under `joined(half-edge)` for the edges between two of them.
+// Classes of `faces` under `joined(side)` for the edges between two of them.
 std::vector<std::vector<int>> classes(const Mesh& mesh, const std::vector<int>& faces,
                                       const std::function<bool(int)>& joined) {
   std::vector<int> parent(mesh.n_faces(), none);

@@ -36,7 +36,7 @@ struct Seam {
   auto operator<=>(const Seam&) const = default;
 };
 
-// Pre: the side lies on a sub-segment or a side.
+// Pre: the side lies on a sub-segment or on a side of the mesh.
 Seam seam_of(const Mesh& mesh, const PlaneFace& face, int side);
 
 // What each face crossed has outside X, in that face's own sheet, by face; last X, with the vertices and the

@@ -26,7 +26,7 @@ class RemeshableSet {
   const std::vector<int>& faces() const { return sets_.faces(set_); }
   bool has(int face) const { return face != none && sets_.set_of(face) == set_; }  // face may be none
 
-  // The face across is in the set, too. Pre: the side is a side of a face of the set.
+  // The face across is in the set, too. Pre: mesh_side is one of a face of the set.
   bool is_inner(int mesh_side) const { return has(mesh_.face_across(mesh_side)); }
 
   int n_vertices() const { return static_cast<int>(vertices_.size()); }

@@ -16,13 +16,13 @@ using ExactPoint = ExactKernel::Point_2;
 struct Surface {
   std::vector<ExactPoint> points;  // by vertex
   std::vector<int> corners;        // by side: the vertex where it starts
-  std::vector<int> mates;          // by side: the side it is glued to, or ~side of the mesh on the border
-  std::vector<int> constraints;    // by side: number of a constraint, or none
-  std::vector<bool> alive;         // by face
+  std::vector<int> mates;  // by side: the side it is glued to, or ~s, s a side of the mesh, on the border
+  std::vector<int> constraints;  // by side: number of a constraint, or none
+  std::vector<bool> alive;       // by face
 
   int n_faces() const { return static_cast<int>(alive.size()); }
   int add_face(int a, int b, int c);  // returns its first side; nothing is glued yet
-  void glue(int side, int mate);      // mate may be ~side of the mesh
+  void glue(int side, int mate);      // mate may be ~s
 
   static int next(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
   static int prev(int side) { return side % 3 == 0 ? side + 2 : side - 1; }

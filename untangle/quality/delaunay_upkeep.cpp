@@ -22,6 +22,15 @@ bool is_locally_delaunay(const Mesh& mesh, int side) {
   return in_circle(a, b, c, mesh.position(mesh.apex(mesh.opposite(side)))) != Side::Inside;
 }
 
+// Of an edge of a changed face; not if it is proved to be locally Delaunay. Forgets what is known of it, so
+// that a second call, where memory was short, is true once more only for an edge that has not been judged.
+bool needs_judgement(float& left, float& right) {
+  if (std::isnan(left) && std::isnan(right)) return false;
+  const bool is_proved = left + right >= 0.0f;
+  left = right = unknown;
+  return !is_proved;
+}
+
 // Calls f(i) for 0 <= i < n in all threads; where there is no memory left to start them, in this one. So f
 // may come twice for an i.
 template <class F>
@@ -101,15 +110,6 @@ char DelaunayUpkeep::wrong_sides(const Mesh& mesh, int face) {
     if (needs_judgement(left, right) && !is_locally_delaunay(mesh, side)) wrong |= 1 << Mesh::corner_of(side);
   }
   return static_cast<char>(wrong);
-}
-
-// Of an edge of a changed face; not if it is proved to be locally Delaunay. Forgets what is known of it, so
-// that a second call, where memory was short, is true once more only for an edge that has not been judged.
-bool DelaunayUpkeep::needs_judgement(float& left, float& right) const {
-  if (std::isnan(left) && std::isnan(right)) return false;
-  const bool is_proved = left + right >= 0.0f;
-  left = right = unknown;
-  return !is_proved;
 }
 
 }  // namespace kinemesh

@@ -25,7 +25,6 @@ class DelaunayUpkeep : public QualityPass {
                           std::span<const RegionRecord> replaced);
   void find_wrong_edges(const Mesh& mesh);
   void bound_angles(const Mesh& mesh, int face);
-  bool needs_judgement(float& left, float& right) const;
   char wrong_sides(const Mesh& mesh, int face);
 
   DelaunayFlipping flipping_;

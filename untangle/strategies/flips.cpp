@@ -183,11 +183,8 @@ RepairOutcome EdgeFlips::repair(Mesh& mesh, const RepairOptions& options) {
   // Regions are described as they were.
   const Stopwatch describing;
   record.escaped = count_escaped(mesh, options);
-  const auto result = states_of(mesh, faces);
-  undo.take_back();
-  record.regions = describe_regions(mesh);
+  undo.look_back(faces, [&] { record.regions = describe_regions(mesh); });
   record.replaced = static_cast<int>(faces.size());
-  mesh.restore(result);
   record.splice_ms = describing.milliseconds();
   return outcome;
 }

@@ -41,15 +41,14 @@ RepairOutcome KineticUntangling::repair(Mesh& mesh, const RepairOptions& options
   record.triangulate_ms = replacing.milliseconds();
   if (outcome.defect) return outcome;
 
-  // Regions are described as they were; what follows that takes no memory, and stays.
+  // Regions are described as they were.
   const Stopwatch describing;
   record.escaped = count_escaped(mesh, options);
   const auto rewritten = undo.rewritten_faces();
-  const auto result = states_of(mesh, rewritten);
-  undo.take_back();
-  find_regions(mesh, rewritten);
-  describe_regions(mesh, record);
-  mesh.restore(result);
+  undo.look_back(rewritten, [&] {
+    find_regions(mesh, rewritten);
+    describe_regions(mesh, record);
+  });
   record.splice_ms = describing.milliseconds();
   return outcome;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/stopwatch.h"
+#include "core/mesh/around.h"
 #include "core/mesh/undo.h"
 #include "kinemesh/error.h"
 #include "kinemesh/predicates.h"
@@ -23,10 +24,6 @@ namespace {
 Orientation turn(const Mesh& mesh, int face) {
   const auto [a, b, c] = mesh.corners(face);
   return orientation(a, b, c);
-}
-
-bool is_upright(const Mesh& mesh, int face) {
-  return turn(mesh, face) == Orientation::CounterClockwise;
 }
 
 // Nothing has been done, but time has been taken.

@@ -106,7 +106,7 @@ std::vector<int> Sheets::first_cells(int face) const {
   return cells;
 }
 
-// On the side of the half-edge's face: in the plane to the left if that is upright, to the right if inverted.
+// Where the side's face lies: in the plane to the left if that is upright, to the right if inverted.
 int Sheets::inner_cell(const Subdivision::Segment& segment, int side) const {
   const bool forward = is_smaller(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side)));
   return forward != inverted_[Mesh::face_of(side)] ? segment.left : segment.right;

@@ -24,7 +24,7 @@ std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
   return triangles;
 }
 
-// Every side has one neighbour that agrees, or one half-edge of the border that runs along it.
+// Every side has one neighbour that agrees, or one side of the border that runs along it.
 bool is_linked(const Mesh& mesh, const NewFaces& faces) {
   std::set<int> border;
   for (int t = 0; t < faces.size(); ++t) {

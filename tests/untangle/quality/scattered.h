@@ -36,7 +36,7 @@ int n_tangled(const Mesh& mesh);  // inverted and flat faces
 // All but free vertices are at the same place, to the last bit.
 std::string moved_what_stays(const Mesh& before, const Mesh& after);
 
-// Faces and edges are what they were. (The half-edges are, too; where fans start is no property of the mesh.)
+// Faces and edges are what they were. (And what lies across each side is.)
 bool same_connectivity(const Mesh& a, const Mesh& b);
 
 }  // namespace kinemesh::test
