@@ -17,22 +17,27 @@ function(kinemesh_room folder)
   list(TRANSFORM ARG_SOURCES APPEND .cpp)
   string(REPLACE "/" "_" room room_${folder})
   add_library(${room} OBJECT ${ARG_SOURCES})
-  set_target_properties(${room} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${room} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON
+    CXX_VISIBILITY_PRESET hidden  # but for what include/ declares
+    VISIBILITY_INLINES_HIDDEN ON)
   target_include_directories(${room} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
-  # A fused multiply-add rounds once where two products are compared, and orientation(a, b, c) then differs
-  # from orientation(b, c, a): the static filters of core/exact are proved for separate roundings.
+  # The same bits on all processors; and the filters of core/exact are proved for separate roundings.
   target_compile_options(${room} PRIVATE -ffp-contract=off)
-  target_link_libraries(${room} PRIVATE OpenMeshCore glm::glm ${ARG_USES})
+  target_link_libraries(${room} PRIVATE glm::glm ${ARG_USES})
   set_property(GLOBAL APPEND PROPERTY KINEMESH_ROOMS ${room})
   set_property(GLOBAL APPEND PROPERTY KINEMESH_USES_OF_${room} ${ARG_USES})
 endfunction()
 
 # kinemesh_library(NAME FOLDERS...): the rooms since the last one as a static library kinemesh_NAME, on top of
-# FOLDERS.
+# FOLDERS; for our own programs and tests. Others link kinemesh::kinemesh (c/CMakeLists.txt).
 function(kinemesh_library name)
   set(target kinemesh_${name})
   get_property(rooms GLOBAL PROPERTY KINEMESH_ROOMS)
   set_property(GLOBAL PROPERTY KINEMESH_ROOMS "")
+  if(name MATCHES "^(core|motion|untangle|sim)$")
+    set_property(GLOBAL APPEND PROPERTY KINEMESH_LIBRARY_ROOMS ${rooms})
+  endif()
   add_library(${target} STATIC)
   add_library(kinemesh::${name} ALIAS ${target})
   foreach(room ${rooms})
@@ -40,14 +45,10 @@ function(kinemesh_library name)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${room}>)
     target_link_libraries(${target} PRIVATE ${uses})
   endforeach()
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/kinemesh/internal>)
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_compile_options(${target} PUBLIC -ffp-contract=off)
   list(TRANSFORM ARGN PREPEND kinemesh_)
-  target_link_libraries(${target} PUBLIC OpenMeshCore glm::glm ${ARGN})
+  target_link_libraries(${target} PUBLIC glm::glm ${ARGN})
 endfunction()

@@ -12,7 +12,7 @@ int main() {
   auto positions = data.points;
   positions[6] = {1.5, 0.5};  // vertex 6 goes straight through the edge 4 5
   const auto outcome = stepper.step(positions, 0.1);
-  if (!outcome) return std::puts(outcome.defect->message().c_str()), 1;  // and the mesh is as it was
+  if (!outcome) return std::puts(outcome.message().c_str()), 1;  // and the mesh is as it was
   std::printf("%d inverted, %d replaced:\n", outcome.record.repair.inverted, outcome.record.repair.replaced);
   for (const auto& [a, b, c] : stepper.mesh().domain().triangles) std::printf("%d %d %d\n", a, b, c);
 }

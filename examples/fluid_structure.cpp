@@ -39,11 +39,12 @@ struct Spring {
   }
 };
 
-std::vector<int> vertices_of(const kinemesh::MeshData& mesh, std::string_view marker) {
-  std::vector<int> vertices;
+std::vector<kinemesh::UserVertex> vertices_of(const kinemesh::MeshData& mesh, std::string_view marker) {
+  std::vector<kinemesh::UserVertex> vertices;
   for (const auto& [name, edges] : mesh.markers)
     if (name == marker)
-      for (const auto& [from, to] : edges) vertices.insert(vertices.end(), {from, to});
+      for (const auto& [from, to] : edges)
+        vertices.insert(vertices.end(), {kinemesh::UserVertex(from), kinemesh::UserVertex(to)});
   std::ranges::sort(vertices);
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
@@ -54,7 +55,7 @@ std::vector<int> vertices_of(const kinemesh::MeshData& mesh, std::string_view ma
 int main() {
   const kinemesh::MeshData mesh = kinemesh::make_channel(2000);
   kinemesh::Stepper stepper(kinemesh::build_mesh(mesh), {.quality = "angles", .angle = 20.0});
-  const std::vector<int> wall = vertices_of(mesh, "cylinder");
+  const std::vector<kinemesh::UserVertex> wall = vertices_of(mesh, "cylinder");
   std::vector<kinemesh::Point> to(wall.size());
   Fluid fluid(mesh);
   Spring spring;
@@ -67,7 +68,7 @@ int main() {
       to[i] = mesh.points[wall[i]] + kinemesh::Point(0.0, spring.y);
     const auto outcome = stepper.step_border(wall, to, dt);
     if (!outcome) {
-      std::puts(outcome.defect->message().c_str());  // the mesh is as it was before the step
+      std::puts(outcome.message().c_str());  // the mesh is as it was before the step
       return 1;
     }
     fluid.follow(stepper.positions(), dt);

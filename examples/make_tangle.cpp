@@ -24,21 +24,22 @@ MeshData jittered(int vertices, double step, unsigned seed) {
   Mesh mesh = build_mesh(make_square(vertices, seed));
   std::mt19937 random(seed);
   const auto uniform = [&] { return step * (2.0 * static_cast<double>(random()) / 0xffffffffu - 1.0); };
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (!mesh.is_constrained(v)) mesh.positions()[v] += Point(uniform(), uniform());
   }
   return mesh.domain();
 }
 
 // An inverted face of the component whose region, of no more than so many faces, is the most telling.
-int choose_seed(const Mesh& mesh, std::size_t most) {
-  int best = none, most_grown = -1;
+Face choose_seed(const Mesh& mesh, std::size_t most) {
+  Face best;
+  int most_grown = -1;
   std::size_t largest = 0;
   const auto inverted = detect(mesh).inverted;
   const auto components = inverted_components(mesh, inverted);
   std::vector<bool> is_tried(components.count, false);
   for (std::size_t i = 0; i < inverted.size(); ++i) {
-    const int seed = inverted[i];
+    const Face seed = inverted[i];
     if (is_tried[components.of[i]]) continue;
     is_tried[components.of[i]] = true;
     LocalExploration exploration(mesh);
@@ -55,9 +56,9 @@ int choose_seed(const Mesh& mesh, std::size_t most) {
 void make(const MeshData& data, std::size_t most, const std::string& file) {
   write_mesh(file, data);
   const Mesh mesh = build_mesh(data);
-  const int seed = choose_seed(mesh, most);
+  const Face seed = choose_seed(mesh, most);
   if (seed == none) throw std::runtime_error("no region of that size");
-  std::printf("%d\n", mesh.user_face(seed));
+  std::printf("%d\n", int{mesh.user_face(seed)});
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-/* From C: a wall that a solver moves, and one that moves as a text says; the mesh between follows. */
+/* From C: a wall that a solver moves, and one that moves as a text says; the mesh between follows, and so do
+ * values of its faces. */
 #include <kinemesh.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,6 +29,11 @@ static kinemesh_status make_square(kinemesh_mesh** mesh) {
   if (!status) status = kinemesh_mesh_add_marker(*mesh, "right", n, right);
   if (!status) status = kinemesh_mesh_add_marker(*mesh, "top", n, top);
   return status;
+}
+
+/* What each face holds; in place, as nothing else can refuse the step afterwards. */
+static int carry(const kinemesh_changes* changes, void* mass) {
+  return kinemesh_remap_amounts(changes, mass, mass);
 }
 
 /* The bottom swings like a membrane. */
@@ -66,13 +72,19 @@ static kinemesh_status push(kinemesh_stepper* stepper, kinemesh_step* step) {
 int main(void) {
   kinemesh_mesh* mesh = NULL;
   kinemesh_stepper *swinging = NULL, *pushed = NULL;
-  kinemesh_step step = {0};
+  kinemesh_step step;
   kinemesh_options options = kinemesh_default_options();
   kinemesh_status status = make_square(&mesh);
+  double mass[n_faces], sum = 0.0;
+  int32_t f;
+  for (f = 0; f < n_faces; ++f) mass[f] = 1.0 / n_faces;
   options.quality = "angles";
+  options.max_region_share = 0.5;
   if (!status) status = kinemesh_stepper_create(mesh, &options, &swinging);
+  if (!status) status = kinemesh_stepper_observe(swinging, carry, mass);
   if (!status) status = swing(swinging, &step);
-  if (!status) printf("%d steps, smallest angle %.1f\n", step.step, step.min_angle_deg);
+  for (f = 0; f < n_faces; ++f) sum += mass[f];
+  if (!status) printf("%d steps, smallest angle %.1f, mass %.6f\n", step.step, step.min_angle_deg, sum);
   if (!status) status = kinemesh_stepper_create_scenario(mesh, piston, 0.25, &pushed);
   if (!status) status = push(pushed, &step);
   if (!status) printf("%d steps, smallest angle %.1f\n", step.step, step.min_angle_deg);

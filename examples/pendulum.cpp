@@ -34,11 +34,12 @@ struct Pendulum {
   }
 };
 
-std::vector<int> bob_of(const kinemesh::MeshData& mesh) {
-  std::vector<int> vertices;
+std::vector<kinemesh::UserVertex> bob_of(const kinemesh::MeshData& mesh) {
+  std::vector<kinemesh::UserVertex> vertices;
   for (const auto& marker : mesh.markers)
     if (marker.name == "cylinder")
-      for (const auto& edge : marker.edges) vertices.push_back(edge[0]);  // a closed curve: each begins one
+      for (const auto& edge : marker.edges)  // a closed curve: each begins one
+        vertices.push_back(kinemesh::UserVertex(edge[0]));
   return vertices;
 }
 
@@ -47,7 +48,7 @@ std::vector<int> bob_of(const kinemesh::MeshData& mesh) {
 int main(int argc, char** argv) {
   const kinemesh::MeshData mesh = kinemesh::make_channel(2000);
   kinemesh::Stepper stepper(kinemesh::build_mesh(mesh), {.quality = "angles", .angle = 22.0});
-  const std::vector<int> bob = bob_of(mesh);
+  const std::vector<kinemesh::UserVertex> bob = bob_of(mesh);
   std::vector<kinemesh::Point> to(bob.size());
 
   const double sine = std::sin(highest / 2.0);

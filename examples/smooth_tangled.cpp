@@ -28,7 +28,7 @@ Mesh tangled_annulus() {
   Mesh mesh = build_mesh(make_annulus(600));
   const Jitter jitter(3.0, 1);
   const double spacing = mean_spacing(mesh);
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (mesh.is_constrained(v)) continue;
     const Point there = mesh.position(v) + jitter.kick(mesh.user_vertex(v), 1, 1.0, spacing);
     const double radius = std::hypot(there.x, there.y);

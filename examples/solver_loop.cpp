@@ -46,7 +46,9 @@ struct Solver {
     for (auto& p : x) p += dt * swirl(p);
   }
   void update_matrix(const std::vector<kinemesh::FaceChange>& faces) {
-    for (const auto& change : faces) triangles[change.face] = change.after;
+    for (const auto& change : faces) {
+      triangles[change.face] = kinemesh::numbers_of(change.after);
+    }
   }
 };
 
@@ -71,7 +73,7 @@ int main() {
     solver.move(dt);
     const auto outcome = stepper.step(solver.x, dt);
     if (!outcome) {
-      std::puts(outcome.defect->message().c_str());  // the mesh is as it was before the step
+      std::puts(outcome.message().c_str());  // the mesh is as it was before the step
       return 1;
     }
     solver.update_matrix(solver.changed);

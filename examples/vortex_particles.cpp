@@ -63,7 +63,9 @@ class Vortices {
     const auto outcome = stepper_.step(x_, dt);
     if (!outcome) throw std::runtime_error(outcome.defect->message());
     for (const auto& patch : changed_)
-      for (const auto& change : patch.faces) triangles_[change.face] = change.after;
+      for (const auto& change : patch.faces) {
+        triangles_[change.face] = kinemesh::numbers_of(change.after);
+      }
     regions += static_cast<int>(outcome.record.repair.regions.size());
     flips += outcome.record.repair.quality_flips;
     weigh_pairs();

@@ -1,4 +1,4 @@
-#include "kinemesh/body.h"
+#include "motion/body.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "motion/fields/recorded.h"
+#include "motion/integrator.h"
 #include "motion/restriction.h"
 
 namespace kinemesh {
@@ -21,16 +22,16 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 // Those that the part names have weight 1, others 0.
-std::vector<int> vertices_of(const Mesh& mesh, const std::vector<std::string>& on) {
+std::vector<Vertex> vertices_of(const Mesh& mesh, const std::vector<std::string>& on) {
   std::vector<char> is_named(mesh.n_vertices(), 0);
   for (const std::string& part : on) {
     if (part == "marker:" || (!part.starts_with("marker:") && !part.starts_with("label:")))
       throw ParameterError("on", "a body: on = \"" + part + "\", expected marker:NAME or label:N");
     const auto named = weights(mesh, parse_restriction(part));
-    for (int v = 0; v < mesh.n_vertices(); ++v) is_named[v] |= named[v] != 0.0;
+    for (const Vertex v : mesh.vertices()) is_named[v] |= named[v] != 0.0;
   }
-  std::vector<int> vertices;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  std::vector<Vertex> vertices;
+  for (const Vertex v : mesh.vertices())
     if (is_named[v]) vertices.push_back(v);
   return vertices;
 }
@@ -126,7 +127,7 @@ Point Body::integrated(const Point& x0, double t0, double dt, Integrator integra
 void Body::move(std::span<const Point> initial, std::span<const Point> x0, double t0, double t1, double dt,
                 Integrator integrator, std::span<Point> x1) const {
   const Placement before = placement(t0), after = placement(t1);
-  for (const int v : vertices_) {
+  for (const Vertex v : vertices_) {
     x1[v] = place(after, initial[v], t1);
     if (!is_exact())
       x1[v] = x0[v] + (x1[v] - place(before, initial[v], t0)) + integrated(x0[v], t0, dt, integrator);

@@ -30,9 +30,9 @@ class BorderReader {
   }
 
   SlidingBorder read(std::vector<BorderCondition>& at) const {
-    std::map<int, std::vector<Edge>> sliding;  // by marker
-    const auto apply = [&](const Edge& edge, int marker, BorderCondition condition) {
-      for (const int v : edge) at[v] = std::max(at[v], condition);
+    std::map<int, std::vector<MeshEdge>> sliding;  // by marker
+    const auto apply = [&](const MeshEdge& edge, int marker, BorderCondition condition) {
+      for (const Vertex v : edge) at[v] = std::max(at[v], condition);
       if (condition == BorderCondition::Slide) sliding[marker].push_back(edge);
     };
     read_named(apply);
@@ -50,7 +50,8 @@ class BorderReader {
       const auto named = conditions_.by_marker.find(mesh_.marker_names()[marker]);
       if (named == conditions_.by_marker.end()) continue;
       for (const auto& [from, to] : mesh_.markers()[marker].edges)
-        apply({mesh_.vertex_of_user(from), mesh_.vertex_of_user(to)}, marker, named->second);
+        apply({mesh_.vertex_of_user(UserVertex(from)), mesh_.vertex_of_user(UserVertex(to))}, marker,
+              named->second);
     }
   }
 
@@ -62,7 +63,7 @@ class BorderReader {
         apply({c.from, c.to}, c.marker, conditions_.otherwise);
   }
 
-  void add_lines(int marker, const std::vector<Edge>& edges, SlidingBorder& border) const {
+  void add_lines(int marker, const std::vector<MeshEdge>& edges, SlidingBorder& border) const {
     try {
       for (SlideLine& line : slide_lines(mesh_, edges)) {
         border.lines.push_back(std::move(line));
@@ -77,11 +78,11 @@ class BorderReader {
   // A vertex of two lines slides where they go on in one direction.
   static void hold_corners(SlidingBorder& border, std::vector<BorderCondition>& at) {
     std::unordered_map<int, Point> directions;
-    const auto hold = [&](int v) {
+    const auto hold = [&](Vertex v) {
       if (std::exchange(at[v], BorderCondition::Fixed) == BorderCondition::Slide) border.corners.insert(v);
     };
     for (const SlideLine& line : border.lines) {
-      for (const int v : line.corners()) hold(v);
+      for (const Vertex v : line.corners()) hold(v);
       for (const auto& [v, direction] : line.ends()) {
         const auto [other, is_first] = directions.emplace(v, direction);
         if (!is_first && !are_parallel(other->second, direction)) hold(v);
@@ -109,25 +110,25 @@ Freedom::Freedom(const Mesh& mesh, const BorderConditions& conditions)
   lines_ = std::move(border.lines);
   names_ = std::move(border.names);
   corners_ = std::move(border.corners);
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (!mesh.is_fixed(v) && mesh.user_vertex(v) != none) continue;
     conditions_[v] = BorderCondition::Fixed;
     corners_.erase(v);
   }
   for (std::size_t i = 0; i < lines_.size(); ++i)
-    for (const int v : lines_[i].vertices()) line_of_.emplace(v, static_cast<int>(i));
+    for (const Vertex v : lines_[i].vertices()) line_of_.emplace(v, static_cast<int>(i));
 }
 
-Point Freedom::tangent(int vertex, const Point& x) const {
+Point Freedom::tangent(Vertex vertex, const Point& x) const {
   return lines_[line_of_.at(vertex)].tangent_near(x);
 }
 
-double Freedom::distance_from_line(int vertex, const Point& x) const {
+double Freedom::distance_from_line(Vertex vertex, const Point& x) const {
   const SlideLine& line = lines_[line_of_.at(vertex)];
   return glm::distance(x, line.at(line.parameter_near(x)));
 }
 
-Point Freedom::on_line(int vertex, const Point& x0, const Point& x1) const {
+Point Freedom::on_line(Vertex vertex, const Point& x0, const Point& x1) const {
   return lines_[line_of_.at(vertex)].moved(x0, x1);
 }
 

@@ -1,8 +1,6 @@
 // What the border of the domain does while the inside moves.
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,22 +9,13 @@
 #include <vector>
 
 #include "kinemesh/mesh.h"
-#include "motion/fields/parameters.h"
+#include "kinemesh/motion.h"
 #include "motion/slide_line.h"
 
 namespace kinemesh {
 
-// By strictness: of two conditions that meet in a vertex the later one holds.
-enum class BorderCondition : std::uint8_t { Moving, Slide, Fixed };
-
 // "fixed", "moving" or "slide". Throws ParameterError with the given key.
 BorderCondition parse_border_condition(std::string_view name, const std::string& key);
-
-struct BorderConditions {
-  // For markers not named here and border edges without a marker.
-  BorderCondition otherwise = BorderCondition::Fixed;
-  std::map<std::string, BorderCondition> by_marker;  // inner lines, too, where named
-};
 
 // How each vertex may move: anywhere, along a line, or not at all.
 //
@@ -41,28 +30,28 @@ class Freedom {
   // sliding, but three or more of its edges meet in a vertex, which it names.
   Freedom(const Mesh& mesh, const BorderConditions& conditions);
 
-  BorderCondition of(int vertex) const { return conditions_[vertex]; }
+  BorderCondition of(Vertex vertex) const { return conditions_[vertex]; }
 
   // It is fixed only since its border slides in two directions there.
-  bool is_corner(int vertex) const { return corners_.contains(vertex); }
+  bool is_corner(Vertex vertex) const { return corners_.contains(vertex); }
 
   // The part of `v` that the vertex at x may follow. Horizontal and vertical borders keep their constant
   // coordinate exactly; on others a vertex leaves the line by rounding, until it is put back by on_line.
-  Point allowed(int vertex, const Point& x, const Point& v) const {
+  Point allowed(Vertex vertex, const Point& x, const Point& v) const {
     if (conditions_[vertex] == BorderCondition::Moving) return v;
     return conditions_[vertex] == BorderCondition::Fixed ? Point(0.0, 0.0) : along(tangent(vertex, x), v);
   }
 
   // Of a sliding vertex: unit vector along its line at x.
-  Point tangent(int vertex, const Point& x) const;
+  Point tangent(Vertex vertex, const Point& x) const;
 
   // Where a sliding vertex that has moved from x0 to x1 is on its line: the way along it counts. Straight
   // horizontal and vertical lines keep x1 bit by bit.
-  Point on_line(int vertex, const Point& x0, const Point& x1) const;
+  Point on_line(Vertex vertex, const Point& x0, const Point& x1) const;
 
   // Of a vertex on a line: from x to the nearest point of it; and which border that is, `marker "top"`.
-  double distance_from_line(int vertex, const Point& x) const;
-  const std::string& border_of(int vertex) const { return names_[line_of_.at(vertex)]; }
+  double distance_from_line(Vertex vertex, const Point& x) const;
+  const std::string& border_of(Vertex vertex) const { return names_[line_of_.at(vertex)]; }
 
   std::span<const SlideLine> lines() const { return lines_; }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "motion/border.h"
 
 namespace kinemesh {
 namespace {
@@ -65,12 +66,12 @@ InteriorSolution Following::follow(const Mesh& mesh, const Motion& motion, const
   ways_.resize(x0.size());
   const bool has_ways = motion.ways_inside(x0, step, ways_);
   tangents_.clear();
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (const Vertex v : mesh.vertices())
     if (roles[v] == Role::Slide) tangents_.emplace(v, motion.freedom().tangent(v, x0[v]));
   const auto ways = has_ways ? std::span<const Point>(ways_) : std::span<const Point>();
   const InteriorSolution solution = solve(mesh, roles, ways, step.dt, x1);
   if (!solution.converged) return solution;
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (roles[v] == Role::Known) continue;
     add(x1[v], next_.increments[v]);
     if (roles[v] == Role::Slide && next_.increments[v] != Point(0.0, 0.0))
@@ -85,7 +86,7 @@ InteriorSolution Following::follow(const Mesh& mesh, std::span<const Role> roles
                                    std::span<Point> x1) {
   tangents_.clear();
   const InteriorSolution solution = solve(mesh, roles, {}, dt, x1);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (const Vertex v : mesh.vertices())
     if (roles[v] == Role::Free) add(x1[v], next_.increments[v]);
   return solution;
 }
@@ -99,7 +100,7 @@ InteriorSolution Following::solve(const Mesh& mesh, std::span<const Role> roles,
   const bool has_start = !state_.increments.empty() && state_.dt > 0.0;
   const double scale = has_start ? dt / state_.dt : 0.0;
   parallel_parts(static_cast<int>(x0.size()), grain::moves, [&](int, int begin, int end) {
-    for (int v = begin; v < end; ++v) {
+    for (Vertex v(begin); v < end; ++v) {
       Point& u = next_.increments[v];
       if (roles[v] == Role::Known)
         u = ways.empty() ? x1[v] - x0[v] : x1[v] - x0[v] - ways[v];

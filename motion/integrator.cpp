@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "motion/fields/parameters.h"
+#include "kinemesh/parameters.h"
 
 namespace kinemesh {
 

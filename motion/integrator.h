@@ -3,12 +3,9 @@
 
 #include <string_view>
 
-#include "kinemesh/types.h"
+#include "kinemesh/motion.h"
 
 namespace kinemesh {
-
-// Order of convergence 1, 2 and 4 [Hairer 1993, §II.1].
-enum class Integrator { Euler, Heun, Rk4 };
 
 // "euler", "heun" or "rk4". Throws ParameterError (key "integrator").
 Integrator parse_integrator(std::string_view name);

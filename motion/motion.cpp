@@ -9,7 +9,12 @@
 
 #include "core/base/parallel.h"
 #include "kinemesh/measure.h"
+#include "motion/body.h"
+#include "motion/border.h"
+#include "motion/integrator.h"
+#include "motion/interior/interior.h"
 #include "motion/noise_cut.h"
+#include "motion/restriction.h"
 
 namespace kinemesh {
 namespace {
@@ -113,7 +118,7 @@ void for_each_end(const Mesh& mesh, const std::string& marker, const Visit& visi
   for (const Marker& m : mesh.markers())
     if (m.name == marker)
       for (const Edge& edge : m.edges)
-        for (const int user : edge) visit(mesh.vertex_of_user(user));
+        for (const int user : edge) visit(mesh.vertex_of_user(UserVertex(user)));
 }
 
 double diagonal_of(std::span<const Point> positions) {
@@ -130,8 +135,76 @@ constexpr double same_within = 1e-9;  // of the mesh's diagonal
 
 }  // namespace
 
-Motion::Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions border,
-               Integrator integrator, const std::vector<BodySpec>& bodies, InteriorOptions interior)
+class Motion::Parts {
+ public:
+  Parts(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions border, Integrator integrator,
+        const std::vector<BodySpec>& bodies, InteriorOptions interior);
+
+  // As Motion's.
+  void advance(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const;
+  bool ways_inside(std::span<const Point> x0, const TimeStep& step, std::span<Point> ways) const;
+  std::string describe_non_finite(Vertex vertex, std::span<const Point> x0, const TimeStep& step) const;
+  std::span<const Role> roles() const { return roles_; }
+  const Freedom& freedom() const { return freedom_; }
+  const InteriorOptions& interior() const { return interior_; }
+  double spacing() const { return spacing_; }
+  std::span<const Point> initial_positions() const { return initial_; }
+  std::span<const Body> bodies() const { return bodies_; }
+  int body_of(Vertex vertex) const { return owner_.empty() ? none : owner_[vertex]; }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  template <class Field>
+  struct Weighted {
+    std::shared_ptr<const Field> field;
+    std::vector<double> weights;  // empty: 1 everywhere
+    std::vector<double> raw;      // as if it owned all it reaches; empty: as `weights`
+    bool is_inside = false;       // acts on the interior
+    double weight(Vertex vertex) const { return weights.empty() ? 1.0 : weights[vertex]; }
+    double raw_weight(Vertex vertex) const { return raw.empty() ? weight(vertex) : raw[vertex]; }
+  };
+
+  template <class Field>
+  static bool acts(const std::vector<Weighted<Field>>& terms, Vertex vertex) {
+    return std::any_of(terms.begin(), terms.end(),
+                       [&](const auto& term) { return term.weight(vertex) != 0.0; });
+  }
+  void add_terms(const Mesh& mesh, const std::vector<MotionTerm>& terms);
+  void own_vertices(const Mesh& mesh);
+  void claim_borders(const Mesh& mesh, const std::vector<MotionTerm>& terms);
+  void give_roles(const Mesh& mesh, const std::vector<MotionTerm>& terms);
+  void put_on(const SlideLine& line, std::span<const Point> x0, std::span<Point> x1) const;
+  void move_bodies(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const;
+  Point velocity(Vertex vertex, const Point& x, double t) const;
+  Point displacement(Vertex vertex, double t, double dt) const;
+  Point noise(Vertex vertex, std::uint64_t step, double dt) const;
+  Point smooth_way(Vertex vertex, const Point& x0, double t, double dt) const;
+  Point way_inside(Vertex vertex, const Point& x0, double t, double dt) const;
+  double fill_noise(double dt, std::uint64_t step, std::span<Point> noises) const;  // returns the longest
+
+  std::vector<Weighted<VelocityField>> velocities_;
+  std::vector<Weighted<DisplacementField>> displacements_;
+  std::vector<Weighted<NoiseField>> noises_;
+  Freedom freedom_;
+  Integrator integrator_;
+  std::vector<Point> initial_;
+  std::vector<UserVertex> user_vertex_;
+  std::vector<char> constrained_vertex_;
+  std::vector<Edge> constrained_;  // ends never change, whatever is repaired
+  double spacing_, diagonal_;
+  std::vector<Body> bodies_;
+  std::vector<int> owner_;                        // per vertex: its body, or none; empty without bodies
+  std::vector<std::pair<Vertex, int>> shared_;    // a vertex, and a body that has it, too, after its owner
+  std::vector<std::pair<Vertex, int>> cornered_;  // a corner of a sliding border, and a body that has it
+  std::vector<int> claim_;            // per vertex of the border: number in claimed_, or none; empty without
+  std::vector<std::string> claimed_;  // markers that terms name
+  InteriorOptions interior_;
+  std::vector<Role> roles_;  // empty where nothing follows
+  std::vector<std::string> notes_;
+};
+
+Motion::Parts::Parts(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions border,
+                     Integrator integrator, const std::vector<BodySpec>& bodies, InteriorOptions interior)
     : freedom_(mesh, completed(mesh, std::move(border), terms, bodies)),
       integrator_(integrator),
       initial_(mesh.positions().begin(), mesh.positions().end()),
@@ -142,7 +215,7 @@ Motion::Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions
       bodies_(bodies_of(mesh, bodies)),
       interior_(std::move(interior)) {
   for (const Constraint& c : mesh.constraints()) constrained_.push_back({c.from, c.to});
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     user_vertex_[v] = mesh.user_vertex(v);
     constrained_vertex_[v] = mesh.is_constrained(v);
   }
@@ -153,12 +226,12 @@ Motion::Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions
 }
 
 // Of two bodies the first one moves a vertex; whether they agree is looked at in every step.
-void Motion::own_vertices(const Mesh& mesh) {
+void Motion::Parts::own_vertices(const Mesh& mesh) {
   if (bodies_.empty()) return;
   owner_.assign(mesh.n_vertices(), none);
   for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
     int n_fixed = 0;
-    for (const int v : bodies_[b].vertices()) {
+    for (const Vertex v : bodies_[b].vertices()) {
       if (freedom_.is_corner(v))
         cornered_.push_back({v, b});
       else if (freedom_.of(v) == BorderCondition::Fixed)
@@ -176,7 +249,7 @@ void Motion::own_vertices(const Mesh& mesh) {
 }
 
 // The markers that each vertex of the border goes by: of all that terms name, the first one.
-void Motion::claim_borders(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
+void Motion::Parts::claim_borders(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
   const auto is_on_border = border_vertices(mesh);
   for (const MotionTerm& term : terms)
     for (const std::string& marker : markers_of(term)) {
@@ -184,14 +257,14 @@ void Motion::claim_borders(const Mesh& mesh, const std::vector<MotionTerm>& term
       if (claim_.empty()) claim_.assign(mesh.n_vertices(), none);
       const int number = static_cast<int>(claimed_.size());
       claimed_.push_back(marker);
-      for_each_end(mesh, marker, [&](int v) {
+      for_each_end(mesh, marker, [&](Vertex v) {
         if (is_on_border[v] && claim_[v] == none) claim_[v] = number;
       });
     }
 }
 
 // Known is what a body owns, the border, what is fixed, and inner lines that are named.
-void Motion::give_roles(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
+void Motion::Parts::give_roles(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
   if (interior_.follow == Follow::None) return;
   for (std::size_t i = 0; i < terms.size(); ++i)
     if (terms[i].where.blend)
@@ -200,31 +273,31 @@ void Motion::give_roles(const Mesh& mesh, const std::vector<MotionTerm>& terms) 
                            "interior.follow = \"none\" brings them back");
   const auto is_on_border = border_vertices(mesh);
   roles_.assign(mesh.n_vertices(), Role::Free);
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     const auto condition = freedom_.of(v);
     if (body_of(v) != none || is_on_border[v] || condition == BorderCondition::Fixed) roles_[v] = Role::Known;
     if (body_of(v) == none && condition == BorderCondition::Slide) roles_[v] = Role::Slide;
   }
   for (const MotionTerm& term : terms)
     for (const std::string& marker : markers_of(term))
-      for_each_end(mesh, marker, [&](int v) {
+      for_each_end(mesh, marker, [&](Vertex v) {
         if (roles_[v] == Role::Free) roles_[v] = Role::Known;
       });
 }
 
 // Where a term has no say its weight is 0.
-void Motion::add_terms(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
+void Motion::Parts::add_terms(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
   for (std::size_t i = 0; i < terms.size(); ++i) {
     auto raw = weights_of_term(mesh, terms, i);
     const auto markers = markers_of(terms[i]);
-    const auto has_say = [&](int v) {
+    const auto has_say = [&](Vertex v) {
       if (body_of(v) != none) return false;
       const int claim = claim_.empty() ? none : claim_[v];
       return claim == none || std::ranges::find(markers, claimed_[claim]) != markers.end();
     };
     auto own = raw;
     bool is_inside = false;
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Vertex v : mesh.vertices()) {
       if (!has_say(v)) {
         own.resize(mesh.n_vertices(), 1.0);
         own[v] = 0.0;
@@ -240,16 +313,16 @@ void Motion::add_terms(const Mesh& mesh, const std::vector<MotionTerm>& terms) {
   }
 }
 
-void Motion::advance(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const {
+void Motion::Parts::advance(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const {
   const int n = static_cast<int>(x0.size());
   if (noises_.empty()) {
     parallel_parts(n, grain::moves, [&](int, int begin, int end) {
-      for (int v = begin; v < end; ++v) x1[v] = moved(x0[v], smooth_way(v, x0[v], step.t0, step.dt));
+      for (Vertex v(begin); v < end; ++v) x1[v] = moved(x0[v], smooth_way(v, x0[v], step.t0, step.dt));
     });
   } else {
     const NoiseCut cut(x0, constrained_, fill_noise(step.dt, step.number, x1), 1e-3 * spacing_);
     parallel_parts(n, grain::moves, [&](int, int begin, int end) {
-      for (int v = begin; v < end; ++v)
+      for (Vertex v(begin); v < end; ++v)
         x1[v] = moved(x0[v], smooth_way(v, x0[v], step.t0, step.dt) + cut(x0[v], x1[v]));
     });
   }
@@ -258,17 +331,17 @@ void Motion::advance(std::span<const Point> x0, const TimeStep& step, std::span<
   move_bodies(x0, step, x1);
 }
 
-void Motion::put_on(const SlideLine& line, std::span<const Point> x0, std::span<Point> x1) const {
-  for (const int v : line.vertices())
+void Motion::Parts::put_on(const SlideLine& line, std::span<const Point> x0, std::span<Point> x1) const {
+  for (const Vertex v : line.vertices())
     if (freedom_.of(v) == BorderCondition::Slide && x1[v] != x0[v]) x1[v] = line.moved(x0[v], x1[v]);
 }
 
-void Motion::move_bodies(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const {
-  const auto name = [&](int v) { return "vertex " + std::to_string(user_vertex_[v]); };
+void Motion::Parts::move_bodies(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const {
+  const auto name = [&](Vertex v) { return "vertex " + std::to_string(user_vertex_[v]); };
   std::vector<Point> place(bodies_.empty() ? 0 : x1.size());
   for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
     bodies_[b].move(initial_, x0, step.t0, step.t1, step.dt, integrator_, place);
-    for (const int v : bodies_[b].vertices()) {
+    for (const Vertex v : bodies_[b].vertices()) {
       if (owner_[v] != b) continue;
       x1[v] = place[v];
       if (freedom_.of(v) != BorderCondition::Slide) continue;
@@ -289,17 +362,18 @@ void Motion::move_bodies(std::span<const Point> x0, const TimeStep& step, std::s
   }
 }
 
-bool Motion::ways_inside(std::span<const Point> x0, const TimeStep& step, std::span<Point> ways) const {
+bool Motion::Parts::ways_inside(std::span<const Point> x0, const TimeStep& step,
+                                std::span<Point> ways) const {
   const auto is_inside = [](const auto& term) { return term.is_inside; };
   if (std::ranges::none_of(velocities_, is_inside) && std::ranges::none_of(displacements_, is_inside))
     return false;
   parallel_parts(static_cast<int>(x0.size()), grain::moves, [&](int, int begin, int end) {
-    for (int v = begin; v < end; ++v) ways[v] = way_inside(v, x0[v], step.t0, step.dt);
+    for (Vertex v(begin); v < end; ++v) ways[v] = way_inside(v, x0[v], step.t0, step.dt);
   });
   return true;
 }
 
-Point Motion::way_inside(int vertex, const Point& x0, double t, double dt) const {
+Point Motion::Parts::way_inside(Vertex vertex, const Point& x0, double t, double dt) const {
   Point way(0.0, 0.0);
   for (const auto& term : displacements_)
     if (const double w = term.raw_weight(vertex); term.is_inside && w != 0.0)
@@ -316,7 +390,7 @@ Point Motion::way_inside(int vertex, const Point& x0, double t, double dt) const
   return roles_[vertex] == Role::Slide ? freedom_.allowed(vertex, x0, way) : way;
 }
 
-Point Motion::smooth_way(int vertex, const Point& x0, double t, double dt) const {
+Point Motion::Parts::smooth_way(Vertex vertex, const Point& x0, double t, double dt) const {
   if (freedom_.of(vertex) == BorderCondition::Fixed) return {0.0, 0.0};
   Point way = freedom_.allowed(vertex, x0, displacement(vertex, t, dt));
   if (acts(velocities_, vertex))
@@ -325,14 +399,14 @@ Point Motion::smooth_way(int vertex, const Point& x0, double t, double dt) const
   return way;
 }
 
-Point Motion::velocity(int vertex, const Point& x, double t) const {
+Point Motion::Parts::velocity(Vertex vertex, const Point& x, double t) const {
   Point sum(0.0, 0.0);
   for (const auto& term : velocities_)
     if (const double w = term.weight(vertex); w != 0.0) sum += w * term.field->velocity(x, t);
   return freedom_.allowed(vertex, x, sum);
 }
 
-Point Motion::displacement(int vertex, double t, double dt) const {
+Point Motion::Parts::displacement(Vertex vertex, double t, double dt) const {
   const Point& initial = initial_[vertex];
   Point sum(0.0, 0.0);
   for (const auto& term : displacements_)
@@ -341,7 +415,7 @@ Point Motion::displacement(int vertex, double t, double dt) const {
   return sum;
 }
 
-Point Motion::noise(int vertex, std::uint64_t step, double dt) const {
+Point Motion::Parts::noise(Vertex vertex, std::uint64_t step, double dt) const {
   Point sum(0.0, 0.0);
   if (constrained_vertex_[vertex] || freedom_.of(vertex) != BorderCondition::Moving) return sum;
   for (const auto& term : noises_)
@@ -350,10 +424,10 @@ Point Motion::noise(int vertex, std::uint64_t step, double dt) const {
   return sum;
 }
 
-double Motion::fill_noise(double dt, std::uint64_t step, std::span<Point> noises) const {
+double Motion::Parts::fill_noise(double dt, std::uint64_t step, std::span<Point> noises) const {
   std::array<double, most_parts> longest{};
   parallel_parts(static_cast<int>(noises.size()), grain::moves, [&](int part, int begin, int end) {
-    for (int v = begin; v < end; ++v) {
+    for (Vertex v(begin); v < end; ++v) {
       noises[v] = noise(v, step, dt);
       longest[part] = std::max(longest[part], glm::length(noises[v]));
     }
@@ -361,7 +435,8 @@ double Motion::fill_noise(double dt, std::uint64_t step, std::span<Point> noises
   return *std::max_element(longest.begin(), longest.end());
 }
 
-std::string Motion::describe_non_finite(int vertex, std::span<const Point> x0, const TimeStep& step) const {
+std::string Motion::Parts::describe_non_finite(Vertex vertex, std::span<const Point> x0,
+                                               const TimeStep& step) const {
   const auto& [t, t1, dt, number] = step;
   if (const int b = body_of(vertex); b != none)
     return fmt::format("body {}: {} gives no finite place for it at time {}", bodies_[b].name(),
@@ -386,6 +461,58 @@ std::string Motion::describe_non_finite(int vertex, std::span<const Point> x0, c
         term.weight(vertex) != 0.0 && !is_finite(kick))
       return blame(term.field, kick);
   return "the motions add up to it " + place;
+}
+
+// --- the whole ---
+
+Motion::Motion(const Mesh& mesh, std::vector<MotionTerm> terms, BorderConditions border,
+               Integrator integrator, const std::vector<BodySpec>& bodies, InteriorOptions interior)
+    : parts_(std::make_shared<const Parts>(mesh, std::move(terms), std::move(border), integrator, bodies,
+                                           std::move(interior))) {}
+
+void Motion::advance(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const {
+  parts_->advance(x0, step, x1);
+}
+
+bool Motion::ways_inside(std::span<const Point> x0, const TimeStep& step, std::span<Point> ways) const {
+  return parts_->ways_inside(x0, step, ways);
+}
+
+std::string Motion::describe_non_finite(Vertex vertex, std::span<const Point> x0,
+                                        const TimeStep& step) const {
+  return parts_->describe_non_finite(vertex, x0, step);
+}
+
+std::span<const Role> Motion::roles() const {
+  return parts_->roles();
+}
+
+const Freedom& Motion::freedom() const {
+  return parts_->freedom();
+}
+
+const InteriorOptions& Motion::interior() const {
+  return parts_->interior();
+}
+
+double Motion::spacing() const {
+  return parts_->spacing();
+}
+
+std::span<const Point> Motion::initial_positions() const {
+  return parts_->initial_positions();
+}
+
+std::span<const Body> Motion::bodies() const {
+  return parts_->bodies();
+}
+
+int Motion::body_of(Vertex vertex) const {
+  return parts_->body_of(vertex);
+}
+
+const std::vector<std::string>& Motion::notes() const {
+  return parts_->notes();
 }
 
 }  // namespace kinemesh

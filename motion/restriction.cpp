@@ -75,7 +75,7 @@ std::vector<double> each_vertex(const Mesh& mesh, const Weight& weight) {
   std::vector<double> all(mesh.n_vertices());
   const auto x = mesh.positions();
   parallel_parts(mesh.n_vertices(), 4096, [&](int, int begin, int end) {
-    for (int v = begin; v < end; ++v) all[v] = weight(v, x[v]);
+    for (Vertex v(begin); v < end; ++v) all[v] = weight(v, x[v]);
   });
   return all;
 }
@@ -94,9 +94,9 @@ Named named_by(const Mesh& mesh, const OnMarker& on) {
   for (const Marker& marker : mesh.markers()) {
     if (marker.name != on.name) continue;
     for (const auto& [from, to] : marker.edges) {
-      const Edge edge{mesh.vertex_of_user(from), mesh.vertex_of_user(to)};
-      named.edges.push_back(edge);
-      for (const int v : edge) named.inside[v] = 1;
+      const Vertex a = mesh.vertex_of_user(UserVertex(from)), b = mesh.vertex_of_user(UserVertex(to));
+      named.edges.push_back({a, b});
+      named.inside[a] = named.inside[b] = 1;
     }
   }
   return named;
@@ -105,12 +105,12 @@ Named named_by(const Mesh& mesh, const OnMarker& on) {
 Named named_by(const Mesh& mesh, const OnLabel& on) {
   Named named{std::vector<char>(mesh.n_vertices(), 0), {}};
   bool found = false;
-  for (int face = 0; face < mesh.n_faces(); ++face) {
+  for (const Face face : mesh.faces()) {
     if (mesh.label(face) != on.label) continue;
     found = true;
-    for (const int v : mesh.triangles()[face]) named.inside[v] = 1;
-    for (const int h : mesh.sides(face)) {
-      const int across = mesh.face_across(h);
+    for (const Vertex v : mesh.triangles()[face]) named.inside[v] = 1;
+    for (const Side h : mesh.sides(face)) {
+      const Face across = mesh.face_across(h);
       if (across == none || mesh.label(across) != on.label) named.edges.push_back({mesh.from(h), mesh.to(h)});
     }
   }
@@ -124,7 +124,7 @@ std::vector<double> weights_of(const Mesh&, const OnAll&, const std::optional<Bl
 }
 
 std::vector<double> weights_of(const Mesh& mesh, const OnDisc& on, const std::optional<Blend>& blend) {
-  return each_vertex(mesh, [&](int, const Point& x) {
+  return each_vertex(mesh, [&](Vertex, const Point& x) {
     const double outside = glm::distance(x, on.center) - on.radius;
     if (outside <= 0.0) return 1.0;
     return blend ? faded(*blend, outside) : 0.0;
@@ -136,7 +136,7 @@ std::vector<double> weights_of(const Mesh& mesh, const On& on, const std::option
   const Named named = named_by(mesh, on);
   if (!blend) return {named.inside.begin(), named.inside.end()};
   const SegmentIndex edges(mesh.positions(), named.edges);
-  return each_vertex(mesh, [&](int v, const Point& x) {
+  return each_vertex(mesh, [&](Vertex v, const Point& x) {
     if (named.inside[v]) return 1.0;
     return edges.maybe_within(x, blend->zero) ? faded(*blend, edges.distance(x)) : 0.0;
   });

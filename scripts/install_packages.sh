@@ -11,7 +11,7 @@ build=(
   libfmt-dev
   libglm-dev        # vectors
   libmuparser-dev   # formulas in scenarios
-  libopenmesh-dev   # half-edges
+  libopenmesh-dev   # the mesh of solvers that embed it
   libpugixml-dev    # VTU
   librsvg2-dev      # figures as PNG
   libsuitesparse-dev # CHOLMOD: sparse Cholesky factorization

@@ -12,7 +12,7 @@
 #include "core/cdt/triangulator.h"
 #include "kinemesh/measure.h"
 #include "kinemesh/scenario.h"
-#include "sim/scenario/setup.h"
+#include "kinemesh/setup.h"
 #include "sim/step/threads.h"
 
 namespace kinemesh::aims {

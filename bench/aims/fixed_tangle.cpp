@@ -26,7 +26,7 @@ Move tangle_in_grid(int vertices) {
   const Jitter jitter(0.5, 1);
   for (int j = 0; j < block; ++j) {
     for (int i = 0; i < block; ++i) {
-      const int user = (first + j) * (cells + 1) + first + i;
+      const UserVertex user((first + j) * (cells + 1) + first + i);
       const auto key = static_cast<std::uint64_t>(j * block + i);
       positions[mesh.vertex_of_user(user)] += jitter.kick(key, 0, 1.0, 1.0 / cells);
     }

@@ -35,19 +35,19 @@ class Channel {
         interior_(mesh_, {}) {
     for (const auto& marker : mesh_.markers())
       for (const auto& edge : marker.edges)
-        for (const int user : edge) add(mesh_.vertex_of_user(user), marker.name == "cylinder");
+        for (const int user : edge) add(mesh_.vertex_of_user(UserVertex(user)), marker.name == "cylinder");
   }
 
   void step() {
     ++steps_;
-    for (const int v : cylinder_)
+    for (const Vertex v : cylinder_)
       increments_[v] = way * spacing_ * Point(std::cos(turn * steps_), std::sin(turn * steps_));
     const Stopwatch stopwatch;
     const auto solution = interior_.solve(mesh_, {.roles = roles_, .tangents = {}}, increments_);
     times_.push_back(stopwatch.milliseconds());
     if (!solution.converged) throw std::runtime_error("the interior does not converge");
     iterations_ = solution.iterations;
-    for (int v = 0; v < mesh_.n_vertices(); ++v) mesh_.positions()[v] += increments_[v];
+    for (const Vertex v : mesh_.vertices()) mesh_.positions()[v] += increments_[v];
     require_valid(mesh_);
   }
 
@@ -66,7 +66,7 @@ class Channel {
   int n_vertices() const { return mesh_.n_vertices(); }
 
  private:
-  void add(int v, bool is_on_cylinder) {
+  void add(Vertex v, bool is_on_cylinder) {
     if (roles_[v] == Role::Known) return;
     roles_[v] = Role::Known;
     if (is_on_cylinder) cylinder_.push_back(v);
@@ -75,7 +75,7 @@ class Channel {
   Mesh mesh_;
   double spacing_;
   std::vector<Role> roles_;
-  std::vector<int> cylinder_;
+  std::vector<Vertex> cylinder_;
   std::vector<Point> increments_;
   Interior interior_;
   int steps_ = 0, iterations_ = 0;

@@ -67,8 +67,9 @@ class Contestant {
     Mesh mesh = moved(move_);
     minima_ = minima_before_;
     const Stopwatch stepping;
-    const auto outcome =
-        strategy_->repair(mesh, {.before = move_.mesh.positions(), .minima = &minima_, .moved = &moved_});
+    Move move({}, move_.mesh.positions());
+    move.know(&minima_, &moved_);
+    const auto outcome = strategy_->repair(mesh, move);
     require_valid(outcome);
     quality_->improve(mesh, {.before = move_.mesh.positions(), .replaced = outcome.record.regions});
     const Stopwatch measuring;

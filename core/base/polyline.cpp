@@ -1,4 +1,4 @@
-#include "core/base/polyline.h"
+#include "kinemesh/detail/polyline.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,9 @@
 namespace kinemesh {
 
 // Ascending. Pre: each from 0 and below n, and there once.
-template <class Numbers>
-void sort_distinct(Numbers& numbers, int n) {
+template <class List>
+void sort_distinct(List& numbers, int n) {
+  using Number = typename List::value_type;
   if (numbers.size() < static_cast<std::size_t>(n) / 32) {
     std::sort(numbers.begin(), numbers.end());
     return;
@@ -18,7 +19,7 @@ void sort_distinct(Numbers& numbers, int n) {
   for (const int number : numbers) is_there[number] = true;
   auto next = numbers.begin();
   for (int number = 0; number < n; ++number)
-    if (is_there[number]) *next++ = number;
+    if (is_there[number]) *next++ = Number(number);
 }
 
 }  // namespace kinemesh

@@ -20,8 +20,8 @@ Orientation orientation_exact(const Point& a, const Point& b, const Point& c) {
   return static_cast<Orientation>(CGAL::orientation(cgal(a), cgal(b), cgal(c)));
 }
 
-Side in_circle_exact(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return static_cast<Side>(CGAL::side_of_oriented_circle(cgal(a), cgal(b), cgal(c), cgal(d)));
+InCircle in_circle_exact(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return static_cast<InCircle>(CGAL::side_of_oriented_circle(cgal(a), cgal(b), cgal(c), cgal(d)));
 }
 
 }  // namespace kinemesh

@@ -205,25 +205,25 @@ Orientation turn(const Point& a, const Point& b, const RationalPoint& p) {
 
 // Inside, outside or on a side of the sheet.
 template <class P>
-Side side_of(const Shadow& sheet, const P& p) {
+InCircle side_of(const Shadow& sheet, const P& p) {
   bool on = false;
   for (const auto& [a, b] : sides_of(sheet)) {
     const auto o = turn(a, b, p);
-    if (o == Orientation::Clockwise) return Side::Outside;
+    if (o == Orientation::Clockwise) return InCircle::Outside;
     on = on || o == Orientation::Collinear;
   }
-  return on ? Side::On : Side::Inside;
+  return on ? InCircle::On : InCircle::Inside;
 }
 
 // Nothing if the point is not good for counting.
 template <class P>
 std::optional<int> cover_over(const P& p, const Shadow& piece, std::span<const Shadow> sheets) {
-  if (side_of(piece, p) != Side::Inside) return std::nullopt;
+  if (side_of(piece, p) != InCircle::Inside) return std::nullopt;
   int sum = 0;
   for (const auto& sheet : sheets) {
     const auto side = side_of(sheet, p);
-    if (side == Side::On) return std::nullopt;
-    if (side == Side::Inside) sum += static_cast<int>(orientation(sheet[0], sheet[1], sheet[2]));
+    if (side == InCircle::On) return std::nullopt;
+    if (side == InCircle::Inside) sum += static_cast<int>(orientation(sheet[0], sheet[1], sheet[2]));
   }
   return sum;
 }

@@ -38,12 +38,12 @@ bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& 
          !same_side(orientation(c, d, a), orientation(c, d, b));
 }
 
-Segment side(const Corners& t, int k) {
+Segment side(const NumberedTriangle& t, int k) {
   const int l = (k + 1) % 3;
   return {t.p[k], t.p[l], t.v[k], t.v[l]};
 }
 
-int corner_of(const Corners& t, int vertex) {
+int corner_of(const NumberedTriangle& t, int vertex) {
   for (int k = 0; k < 3; ++k) {
     if (t.v[k] == vertex) return k;
   }
@@ -96,20 +96,20 @@ bool separates(const std::array<Point, 3>& s, Orientation o, const std::array<Po
   return false;
 }
 
-bool a_side_touches(const Corners& s, const Corners& t) {
+bool a_side_touches(const NumberedTriangle& s, const NumberedTriangle& t) {
   return touches(side(s, 0), t) || touches(side(s, 1), t) || touches(side(s, 2), t);
 }
 
 }  // namespace
 
-Side in_circle(const Point& a, const Point& b, const Point& c, const Point& d) {
+InCircle in_circle(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Point ad = a - d, bd = b - d, cd = c - d;
   const double la = lift(ad), lb = lift(bd), lc = lift(cd);
   const Minor bc = minor2(bd, cd), ca = minor2(cd, ad), ab = minor2(ad, bd);
   const double det = la * bc.value + lb * ca.value + lc * ab.value;
   const double permanent = la * bc.permanent + lb * ca.permanent + lc * ab.permanent;
   if (std::abs(det) > in_circle_error * permanent + underflow_error * (1.0 + la + lb + lc)) {
-    return det > 0.0 ? Side::Inside : Side::Outside;
+    return det > 0.0 ? InCircle::Inside : InCircle::Outside;
   }
   return in_circle_exact(a, b, c, d);
 }
@@ -139,7 +139,7 @@ bool strictly_inside(const Point& p, const std::array<Point, 3>& t) {
   return same_side(o, orientation(t[1], t[2], p)) && same_side(o, orientation(t[2], t[0], p));
 }
 
-bool touches(const Segment& s, const Corners& t) {
+bool touches(const Segment& s, const NumberedTriangle& t) {
   const int a = corner_of(t, s.va), b = corner_of(t, s.vb);
   if (a == none && b == none) return meets(s, t.p);
   if (a != none && b != none) return false;
@@ -154,7 +154,7 @@ bool interiors_overlap(const std::array<Point, 3>& s, const std::array<Point, 3>
   return !separates(s, os, t, true) && !separates(t, ot, s, true);
 }
 
-bool touches(const Corners& s, const Corners& t) {
+bool touches(const NumberedTriangle& s, const NumberedTriangle& t) {
   if (!meet(box_of(s.p), box_of(t.p))) return false;
   return a_side_touches(s, t) || a_side_touches(t, s);
 }

@@ -50,20 +50,22 @@ class MeshBuilder {
   void add_padding(std::span<const Triangle> padding);
   void connect();
   void label_vertices();
-  void trace_hull();
   void constrain();
-  void constrain_edge(int side, int marker);
+  void constrain_edge(Side side, int marker);
   void constrain_markers();
   void number_constraints();
-  int find_edge(int user_a, int user_b) const;
-  bool is_in_domain(int side) const;
-  int label_beside(int side) const;
+  Side find_edge(const Edge& ends) const;
+  bool is_in_domain(Side side) const;
+  int label_beside(Side side) const;
 
   const MeshData& data_;
   const BuildOptions& options_;
   std::optional<std::span<const int>> order_;
   Mesh mesh_;
-  std::vector<int> opposite_;                // per side 3 f + k, padding included; until all is connected
+  // Until all is connected, padding included: faces in the mesh's numbers, and per side 3 f + k the one on
+  // the same edge.
+  std::vector<Triangle> triangles_;
+  std::vector<int> opposite_;
   std::unordered_map<int, int> constraint_;  // by lower side
 };
 
@@ -176,9 +178,9 @@ void MeshBuilder::place_vertices() {
   mesh_.positions_.resize(n);
   mesh_.user_vertex_.resize(n);
   parallel_parts(n, grain::items, [&](int, int begin, int end) {
-    for (int v = begin; v < end; ++v) {
+    for (Vertex v(begin); v < end; ++v) {
       mesh_.positions_[v] = points[order[v]];
-      mesh_.user_vertex_[v] = order[v] < data_.n_vertices() ? order[v] : none;
+      mesh_.user_vertex_[v] = order[v] < data_.n_vertices() ? UserVertex(order[v]) : none;
       mesh_.vertex_of_user_[order[v]] = v;
     }
   });
@@ -199,19 +201,21 @@ void MeshBuilder::place_faces() {
     for (int f = begin; f < end; ++f) lowest[f] = std::ranges::min(renumbered(f));
   });
   mesh_.n_user_faces_ = n;
-  mesh_.user_face_ = order_by(lowest, mesh_.n_vertices());
-  mesh_.triangles_.resize(n);
+  const std::vector<int> order = order_by(lowest, mesh_.n_vertices());
+  mesh_.user_face_.resize(n);
+  triangles_.resize(n);
   mesh_.labels_.resize(n);
   parallel_parts(n, grain::items, [&](int, int begin, int end) {
     for (int f = begin; f < end; ++f) {
-      mesh_.triangles_[f] = renumbered(mesh_.user_face_[f]);
-      mesh_.labels_[f] = data_.label(mesh_.user_face_[f]);
+      mesh_.user_face_[f] = UserFace(order[f]);
+      triangles_[f] = renumbered(order[f]);
+      mesh_.labels_[f] = data_.label(order[f]);
     }
   });
 }
 
 void MeshBuilder::embed() {
-  auto pairs = pair_sides(mesh_.triangles_, mesh_.n_vertices());
+  auto pairs = pair_sides(triangles_, mesh_.n_vertices());
   if (pairs.conflict != none) {
     throw FaceError(mesh_.user_face_[pairs.conflict],
                     "an edge has more than two faces, or two wound the same way");
@@ -219,7 +223,7 @@ void MeshBuilder::embed() {
   opposite_ = std::move(pairs.opposite);
   std::vector<Edge> border;
   for (int s = 0; s < static_cast<int>(opposite_.size()); ++s) {
-    if (opposite_[s] == none) border.push_back(ends_of_side(mesh_.triangles_, s));
+    if (opposite_[s] == none) border.push_back(ends_of_side(triangles_, s));
   }
   if (border.empty()) {
     throw NoEmbedding({.kind = DefectKind::NotPlanar, .detail = "there is no border, the surface is closed"});
@@ -230,29 +234,29 @@ void MeshBuilder::embed() {
 // Sides of padding meet each other or the border; an interior edge of a tangled domain may have the same ends
 // as an edge of the padding, so the two must not be paired by their ends.
 void MeshBuilder::add_padding(std::span<const Triangle> padding) {
-  check_size(mesh_.triangles_.size() + padding.size(), "faces with the padding around the domain");
+  check_size(triangles_.size() + padding.size(), "faces with the padding around the domain");
   const int first_side = static_cast<int>(opposite_.size());
   auto inner = pair_sides(padding, mesh_.n_vertices());
   for (int& s : inner.opposite) s = s == none ? none : s + first_side;
   opposite_.insert(opposite_.end(), inner.opposite.begin(), inner.opposite.end());
-  const std::size_t n_faces = mesh_.triangles_.size() + padding.size();
-  mesh_.triangles_.reserve(n_faces);
+  const std::size_t n_faces = triangles_.size() + padding.size();
+  triangles_.reserve(n_faces);
   mesh_.labels_.reserve(n_faces);
   mesh_.user_face_.reserve(n_faces);
-  mesh_.triangles_.insert(mesh_.triangles_.end(), padding.begin(), padding.end());
-  mesh_.labels_.resize(mesh_.triangles_.size(), padding_label);
-  for (int f = mesh_.n_user_faces_; f < mesh_.n_faces(); ++f) mesh_.user_face_.push_back(f);
+  triangles_.insert(triangles_.end(), padding.begin(), padding.end());
+  mesh_.labels_.resize(triangles_.size(), padding_label);
+  for (UserFace f(mesh_.n_user_faces_); f < static_cast<int>(n_faces); ++f) mesh_.user_face_.push_back(f);
 
   std::vector<std::pair<Edge, int>> border;  // of the domain, by ends as the padding sees them
   for (int s = 0; s < first_side; ++s) {
     if (opposite_[s] != none) continue;
-    const auto [a, b] = ends_of_side(mesh_.triangles_, s);
+    const auto [a, b] = ends_of_side(triangles_, s);
     border.push_back({{b, a}, s});
   }
   std::sort(border.begin(), border.end());
   for (int s = first_side; s < static_cast<int>(opposite_.size()); ++s) {
     if (opposite_[s] != none) continue;
-    const auto ends = ends_of_side(mesh_.triangles_, s);
+    const auto ends = ends_of_side(triangles_, s);
     const auto found = std::lower_bound(border.begin(), border.end(), std::pair(ends, 0));
     if (found == border.end() || found->first != ends) continue;  // the hull
     opposite_[s] = found->second;
@@ -261,70 +265,44 @@ void MeshBuilder::add_padding(std::span<const Triangle> padding) {
 }
 
 void MeshBuilder::connect() {
-  const int n = mesh_.n_faces();
-  mesh_.across_.resize(n);
-  mesh_.side_from_.assign(mesh_.n_vertices(), none);
-  parallel_pair(
-      [&] {
-        for (int f = 0; f < n; ++f) {
-          for (int k = 0; k < 3; ++k) {
-            const int across = opposite_[3 * f + k];
-            mesh_.across_[f][k] = (across == none ? none : Mesh::side(across / 3, across % 3)) * 2;
-          }
-        }
-      },
-      [&] {
-        label_vertices();
-        for (int f = 0; f < n; ++f)
-          for (const int side : Mesh::sides(f)) mesh_.side_from_[mesh_.from(side)] = side;
-      });
-  trace_hull();
-  opposite_ = std::vector<int>();
+  const int n = static_cast<int>(triangles_.size());
+  mesh_.triangles_.resize(n);
+  parallel_parts(n, grain::items, [&](int, int begin, int end) {
+    for (int f = begin; f < end; ++f) mesh_.triangles_[f] = mesh_triangle(triangles_[f]);
+  });
+  parallel_pair([&] { mesh_.connect(opposite_); }, [&] { label_vertices(); });
+  opposite_ = {};
+  triangles_ = {};
 }
 
 void MeshBuilder::label_vertices() {
   mesh_.home_label_.assign(mesh_.n_vertices(), 0);
-  for (int f = 0; f < mesh_.n_faces(); ++f) {
-    for (const int v : mesh_.triangles_[f]) mesh_.home_label_[v] = mesh_.labels_[f];
+  for (const Face f : mesh_.faces()) {
+    for (const Vertex v : mesh_.triangles_[f]) mesh_.home_label_[v] = mesh_.labels_[f];
   }
 }
 
-// One loop, from its lowest vertex on.
-void MeshBuilder::trace_hull() {
-  std::vector<std::pair<int, int>> leaving;  // vertex, side on the hull that starts there
-  for (int s = 0; s < static_cast<int>(opposite_.size()); ++s)
-    if (opposite_[s] == none)
-      leaving.emplace_back(ends_of_side(mesh_.triangles_, s)[0], Mesh::side(s / 3, s % 3));
-  std::sort(leaving.begin(), leaving.end());
-  const int first = leaving.front().first;
-  int v = first;
-  do {
-    mesh_.hull_.push_back(v);
-    v = mesh_.to(std::lower_bound(leaving.begin(), leaving.end(), std::pair(v, 0))->second);
-  } while (v != first && mesh_.hull_.size() <= leaving.size());
-}
-
-int MeshBuilder::label_beside(int side) const {
+int MeshBuilder::label_beside(Side side) const {
   return side == none ? padding_label : mesh_.labels_[Mesh::face_of(side)];
 }
 
 void MeshBuilder::constrain() {
   mesh_.on_constraint_.assign(mesh_.n_vertices(), false);
-  std::array<std::vector<int>, most_parts> interfaces;
+  std::array<std::vector<Side>, most_parts> interfaces;
   parallel_parts(mesh_.n_faces(), grain::items, [&](int part, int begin, int end) {
-    for (int f = begin; f < end; ++f)
-      for (const int s : Mesh::sides(f))
+    for (Face f(begin); f < end; ++f)
+      for (const Side s : Mesh::sides(f))
         if (mesh_.is_lower(s) && label_beside(s) != label_beside(mesh_.opposite(s)))
           interfaces[part].push_back(s);
   });
   for (const auto& sides : interfaces)
-    for (const int s : sides) constrain_edge(s, none);
+    for (const Side s : sides) constrain_edge(s, none);
   constrain_markers();
   number_constraints();
   mesh_.label_names_ = data_.label_names;
 }
 
-void MeshBuilder::constrain_edge(int side, int marker) {
+void MeshBuilder::constrain_edge(Side side, int marker) {
   const auto [known, is_new] =
       constraint_.try_emplace(mesh_.lower(side), static_cast<int>(mesh_.constraints_.size()));
   if (!is_new) {
@@ -332,19 +310,22 @@ void MeshBuilder::constrain_edge(int side, int marker) {
     if (marker_there == none) marker_there = marker;
     return;
   }
-  const int lower = mesh_.lower(side), across = mesh_.opposite(lower);
+  const Side lower = mesh_.lower(side), across = mesh_.opposite(lower);
   const bool is_turned = label_beside(lower) == padding_label && across != none;  // the domain to the left
-  const int left = is_turned ? across : lower, right = is_turned ? lower : across;
-  const int a = mesh_.from(left), b = mesh_.to(left);
+  const Side left = is_turned ? across : lower, right = is_turned ? lower : across;
+  const Vertex a = mesh_.from(left), b = mesh_.to(left);
   mesh_.constraints_.push_back({a, b, label_beside(left), label_beside(right), marker});
-  mesh_.on_constraint_[a] = true;
-  mesh_.on_constraint_[b] = true;
+  for (const Vertex v : {a, b}) {
+    mesh_.on_constraint_[v] = true;
+    mesh_.home_label_[v] = 0;
+  }
 }
 
 void MeshBuilder::number_constraints() {
   mesh_.side_of_constraint_.resize(mesh_.constraints_.size());
   mesh_.constraint_at_.reset(mesh_.constraints_.size());
-  for (const auto& [side, number] : constraint_) {
+  for (const auto& [on, number] : constraint_) {
+    const Side side(on);
     mesh_.link(side, mesh_.word(side) | 1);
     mesh_.remember_constraint(number, side);
   }
@@ -359,7 +340,7 @@ void MeshBuilder::constrain_markers() {
     mesh_.marker_names_.push_back(marker.name);
     for (const auto& ends : marker.edges) {
       if (!seen.insert(key_of(ends)).second) continue;
-      const int side = find_edge(ends[0], ends[1]);
+      const Side side = find_edge(ends);
       if (side == none)
         throw InputError("marker " + marker.name + ": " + name_of(ends) + " is not an edge of a face");
       constrain_edge(side, m);
@@ -369,10 +350,10 @@ void MeshBuilder::constrain_markers() {
 
 // Turns about both ends at the same time until the first one has come around: summed over the edges of a
 // planar graph this is in proportion to their number, however many meet in a vertex [Chiba 1985].
-int MeshBuilder::find_edge(int user_a, int user_b) const {
-  const int n = data_.n_vertices();
-  if (user_a < 0 || user_a >= n || user_b < 0 || user_b >= n) return none;
-  const int a = mesh_.vertex_of_user_[user_a], b = mesh_.vertex_of_user_[user_b];
+Side MeshBuilder::find_edge(const Edge& ends) const {
+  for (const int end : ends)
+    if (end < 0 || end >= data_.n_vertices()) return none;
+  const Vertex a = mesh_.vertex_of_user_[ends[0]], b = mesh_.vertex_of_user_[ends[1]];
   Spokes from_a(mesh_, a), from_b(mesh_, b);
   for (; !from_a.is_done(); from_a.advance()) {
     if (from_a.end() == b && is_in_domain(from_a.side())) return from_a.side();
@@ -383,7 +364,7 @@ int MeshBuilder::find_edge(int user_a, int user_b) const {
   return none;
 }
 
-bool MeshBuilder::is_in_domain(int side) const {
+bool MeshBuilder::is_in_domain(Side side) const {
   return constraint_.contains(mesh_.lower(side)) || label_beside(side) != padding_label;
 }
 

@@ -6,7 +6,7 @@
 namespace kinemesh {
 namespace {
 
-std::string name(const Edge& edge) {
+std::string name(const UserEdge& edge) {
   return fmt::format("{}-{}", edge[0], edge[1]);
 }
 
@@ -14,12 +14,13 @@ std::string name(const Edge& edge) {
 // user's).
 std::string vertex(const Defect& defect, std::size_t i) {
   if (i >= defect.vertices.size() || defect.vertices[i] == none) return "a corner of the frame";
-  return fmt::format("vertex {}", defect.vertices[i]);
+  return fmt::format("vertex {}", int{defect.vertices[i]});
 }
 
 std::string face(const Defect& defect) {
   const int number = defect.faces.empty() ? none : defect.faces[0];
-  const auto corners = fmt::format("({})", fmt::join(defect.vertices, ", "));
+  const std::vector<int> vertices(defect.vertices.begin(), defect.vertices.end());
+  const auto corners = fmt::format("({})", fmt::join(vertices, ", "));
   return number == none ? "the padding's face " + corners : fmt::format("face {} {}", number, corners);
 }
 

@@ -42,7 +42,7 @@ void enlarge(const Mesh& mesh, std::span<Point> next) {
 }
 
 std::optional<Defect> non_finite_corner(const Mesh& mesh, std::span<const Point> next) {
-  for (const int corner : mesh.frame()) {
+  for (const Vertex corner : mesh.frame()) {
     if (is_finite(next[corner])) continue;
     return Defect{.kind = DefectKind::NonFinitePosition,
                   .vertices = {none},
@@ -69,7 +69,7 @@ std::optional<Defect> follow(const Mesh& mesh, std::span<Point> next) {
   const bool stays = std::min(gaps) >= 0.5 * margin && std::max(gaps) <= 2.0 * margin;
   const auto fresh = frame_around(box, mesh.frame_margin());
   for (int i = 0; i < 4; ++i) {
-    const int corner = mesh.frame()[i];
+    const Vertex corner = mesh.frame()[i];
     next[corner] = stays ? mesh.position(corner) : fresh[i];
   }
   enlarge(mesh, next);
@@ -80,7 +80,7 @@ std::optional<Defect> hull_defect(const Mesh& mesh, std::span<const Point> next)
   if (!mesh.frame().empty()) return std::nullopt;
   const auto hull = mesh.hull();
   for (std::size_t i = 0; i < hull.size(); ++i) {
-    const int v = hull[i];
+    const Vertex v = hull[i];
     if (next[v] == mesh.position(v)) continue;
     const Point& before = next[hull[(i + hull.size() - 1) % hull.size()]];
     const Point& after = next[hull[(i + 1) % hull.size()]];
@@ -93,7 +93,7 @@ std::optional<Defect> hull_defect(const Mesh& mesh, std::span<const Point> next)
 
 bool is_outside_hull(const Mesh& mesh, const Point& p) {
   const auto hull = mesh.hull();
-  if (std::any_of(hull.begin(), hull.end(), [&](int v) { return mesh.position(v) == p; })) return false;
+  if (std::any_of(hull.begin(), hull.end(), [&](Vertex v) { return mesh.position(v) == p; })) return false;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Point& a = mesh.position(hull[i]);
     const Point& b = mesh.position(hull[(i + 1) % hull.size()]);

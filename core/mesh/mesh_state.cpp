@@ -1,143 +1,339 @@
 #include "core/mesh/mesh_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
+#include "core/base/parallel.h"
+#include "core/mesh/sides.h"
 #include "kinemesh/validate.h"
 
 namespace kinemesh {
 namespace {
-
-template <class Value>
-std::vector<int> collect(int n, const Value& value) {
-  std::vector<int> values(n);
-  for (int i = 0; i < n; ++i) values[i] = value(i);
-  return values;
-}
-
-std::vector<int> user_vertices_of(const Mesh& mesh) {
-  return collect(mesh.n_vertices(), [&](int v) { return mesh.user_vertex(v); });
-}
-
-std::vector<int> user_faces_of(const Mesh& mesh) {
-  return collect(mesh.n_faces(), [&](int f) { return mesh.user_face(f); });
-}
 
 void require(bool condition, const char* what) {
   if (!condition) throw InputError(what);
 }
 
 template <class Items>
-bool has_size(const Items& items, int n) {
-  return items.size() == static_cast<std::size_t>(n);
+bool has_size(const Items& items, std::size_t n) {
+  return items.size() == n;
 }
 
 bool are_between(std::span<const int> numbers, int first, int end) {
   return std::ranges::all_of(numbers, [=](int i) { return first <= i && i < end; });
 }
 
-bool are_below(std::span<const Triangle> triples, int end) {
-  return std::ranges::all_of(triples, [=](const Triangle& t) { return are_between(t, 0, end); });
+Side renumbered(Side side, std::span<const int> faces) {
+  return Mesh::side(Face(faces[Mesh::face_of(side)]), Mesh::corner_of(side));
 }
 
-bool has_same_vertices(const Mesh& mesh, std::span<const Triangle> triangles) {
-  std::vector<char> is_used(mesh.n_vertices(), false);
-  for (const Triangle& corners : triangles)
-    for (const int v : corners) is_used[v] = true;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (mesh.is_isolated(v) == is_used[v]) return false;
-  return true;
+Edge sorted(Edge ends) {
+  if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
+  return ends;
 }
 
-// Of a face there is, not the fourth.
-bool is_side(const Mesh& mesh, int side) {
-  return side >= 0 && Mesh::face_of(side) < mesh.n_faces() && Mesh::corner_of(side) < 3;
-}
-
-bool are_sides_or_none(const Mesh& mesh, std::span<const Triangle> triples) {
-  return std::ranges::all_of(triples, [&](const Triangle& t) {
-    return std::ranges::all_of(t, [&](int side) { return side == none || is_side(mesh, side); });
-  });
-}
-
-// What keeps restoring within the mesh's arrays; validation sees to the rest.
-void check(const Mesh& mesh, const MeshState& state) {
-  const int n = mesh.n_vertices();
-  require(has_size(state.positions, n) && has_size(state.triangles, mesh.n_faces()) &&
-              has_size(state.across, mesh.n_faces()) && has_size(state.labels, mesh.n_faces()) &&
-              state.constraint_sides.size() == mesh.constraints().size(),
-          "the state of a mesh of another size");
-  auto lines = state.constraint_sides;
-  std::ranges::sort(lines);
-  require(are_below(state.triangles, n) && has_same_vertices(mesh, state.triangles) &&
-              are_sides_or_none(mesh, state.across) &&
-              std::ranges::all_of(lines, [&](int side) { return is_side(mesh, side); }) &&
-              std::ranges::adjacent_find(lines) == lines.end(),
-          "the state of a mesh names what the mesh does not have");
-}
-
-// All faces as they are to be.
-std::vector<FaceState> faces_of(const Mesh& mesh, const MeshState& state) {
-  std::vector<FaceState> faces(mesh.n_faces());
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    faces[f] = {f, state.labels[f], state.triangles[f], state.across[f], {none, none, none}};
-    for (int& word : faces[f].across) word *= 2;
+void turn(std::vector<ListedConstraint>& constraints, std::span<const int> turned) {
+  for (const int i : turned) {
+    std::swap(constraints[i].from, constraints[i].to);
+    std::swap(constraints[i].left, constraints[i].right);
   }
-  const auto constrain = [&](int side, int number) {
-    auto& face = faces[Mesh::face_of(side)];
-    face.across[Mesh::corner_of(side)] |= 1;
-    face.constraints[Mesh::corner_of(side)] = number;
-  };
-  for (std::size_t i = 0; i < state.constraint_sides.size(); ++i) {
-    const int side = state.constraint_sides[i];
-    const int across = state.across[Mesh::face_of(side)][Mesh::corner_of(side)];
-    constrain(side, static_cast<int>(i));
-    if (across != none) constrain(across, static_cast<int>(i));
-  }
-  return faces;
 }
 
 }  // namespace
 
-MeshOrigin origin_of(const Mesh& mesh) {
-  MeshOrigin origin{.data = mesh.domain(),
-                    .frame = mesh.frame_margin(),
-                    .fixed = {},
-                    .user_vertices = user_vertices_of(mesh),
-                    .user_faces = user_faces_of(mesh)};
-  for (int u = 0; u < mesh.n_user_vertices(); ++u)
-    if (mesh.is_fixed(mesh.vertex_of_user(u))) origin.fixed.push_back(u);
-  return origin;
+// The only one who looks into a mesh that is there, and puts one together that was not built.
+class MeshParts {
+ public:
+  MeshParts(const MeshBase& base, const MeshState& state) : base_(base), state_(state) {}
+
+  static MeshBase base_of(const Mesh& mesh);
+  static Side side_of(const Mesh& mesh, int constraint) { return mesh.side_of_constraint_[constraint]; }
+
+  Mesh restore() {
+    check();
+    place_vertices();
+    place_faces();
+    connect();
+    constrain();
+    if (const auto defect = validate_connectivity(mesh_)) throw InputError(defect->message());
+    return std::move(mesh_);
+  }
+
+ private:
+  static MeshOrder order_of(const Mesh& mesh);
+
+  int n_vertices() const { return static_cast<int>(state_.positions.size()); }
+  int n_faces() const { return static_cast<int>(state_.triangles.size()); }
+  int n_user_vertices() const { return n_vertices() - (base_.frame > 0.0 ? 4 : 0); }
+  bool is_side(int number) const {
+    const Side side(number);
+    return side >= 0 && Mesh::face_of(side) < n_faces() && Mesh::corner_of(side) < 3;
+  }
+
+  void check() const;
+  void check_sizes() const;
+  void check_order() const;
+  void check_vertices() const;
+  void check_faces() const;
+  void check_constraints() const;
+  void check_markers() const;
+  void place_vertices();
+  void place_faces();
+  void connect();
+  void check_frame() const;
+  void constrain();
+
+  const MeshBase& base_;
+  const MeshState& state_;
+  std::vector<Triangle> triangles_;  // in the mesh's order and numbers
+  Mesh mesh_;
+};
+
+MeshOrder MeshParts::order_of(const Mesh& mesh) {
+  MeshOrder order{{mesh.vertex_of_user_.begin(), mesh.vertex_of_user_.end()},
+                  inverse({mesh.user_face_.begin(), mesh.user_face_.end()}),
+                  {},
+                  {}};
+  order.vertices.insert(order.vertices.end(), mesh.frame_.begin(), mesh.frame_.end());
+  const auto numbers = inverse(order.vertices);
+  const auto ends = [&](int i) {
+    const Constraint& c = mesh.constraints()[i];
+    return sorted({numbers[c.from], numbers[c.to]});
+  };
+  order.constraints.resize(mesh.constraints().size());
+  std::iota(order.constraints.begin(), order.constraints.end(), 0);
+  std::ranges::sort(order.constraints, {}, [&](int i) { return std::pair(ends(i), i); });
+  for (std::size_t i = 0; i < order.constraints.size(); ++i) {
+    const int number = order.constraints[i];
+    if (numbers[mesh.constraints()[number].from] != ends(number)[0])
+      order.turned.push_back(static_cast<int>(i));
+  }
+  return order;
 }
 
-MeshState state_of(const Mesh& mesh) {
-  MeshState state{.positions = {mesh.positions().begin(), mesh.positions().end()},
-                  .triangles = {mesh.triangles().begin(), mesh.triangles().end()},
-                  .across = std::vector<Triangle>(mesh.n_faces()),
-                  .labels = collect(mesh.n_faces(), [&](int f) { return mesh.label(f); }),
-                  .constraint_sides = std::vector<int>(mesh.constraints().size())};
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    for (const int side : Mesh::sides(f)) {
-      state.across[f][Mesh::corner_of(side)] = mesh.opposite(side);
-      if (mesh.has_constraint(side) && mesh.is_lower(side))
-        state.constraint_sides[mesh.constraint_of(side)] = side;
+MeshBase MeshParts::base_of(const Mesh& mesh) {
+  MeshOrder order = order_of(mesh);
+  MeshBase base{.frame = mesh.frame_margin(),
+                .fixed = {},
+                .home = in_user_order(mesh.home_label_, order.vertices),
+                .constraints = {},
+                .markers = mesh.markers(),
+                .label_names = mesh.label_names_,
+                .order = std::move(order)};
+  for (const UserVertex u : Numbers<UserVertex>(mesh.n_user_vertices()))
+    if (mesh.is_fixed(mesh.vertex_of_user(u))) base.fixed.push_back(u);
+  const auto numbers = inverse(base.order.vertices);
+  for (const int i : base.order.constraints) {
+    const Constraint& c = mesh.constraints()[i];
+    base.constraints.push_back({numbers[c.from], numbers[c.to], c.left, c.right, c.marker});
+  }
+  turn(base.constraints, base.order.turned);
+  return base;
+}
+
+// So that all that follows stays within the arrays; validation sees to the rest.
+void MeshParts::check() const {
+  check_sizes();
+  check_order();
+  check_vertices();
+  check_faces();
+  check_constraints();
+  check_markers();
+}
+
+void MeshParts::check_sizes() const {
+  check_size(state_.positions.size(), "vertices");
+  check_size(state_.triangles.size(), "faces");
+  require(base_.frame >= 0.0 && std::isfinite(base_.frame), "a frame with a margin that none has");
+  require(n_user_vertices() >= 3, "a mesh with fewer than three vertices");
+  const auto n_constraints = base_.constraints.size();
+  require(has_size(base_.home, state_.positions.size()) && has_size(state_.labels, state_.triangles.size()) &&
+              has_size(state_.constraint_sides, n_constraints) &&
+              has_size(base_.order.vertices, state_.positions.size()) &&
+              has_size(base_.order.faces, state_.triangles.size()) &&
+              has_size(base_.order.constraints, n_constraints),
+          "parts of meshes of different sizes");
+}
+
+void MeshParts::check_order() const {
+  require_permutation(base_.order.vertices);
+  require_permutation(base_.order.faces);
+  require_permutation(base_.order.constraints);
+  require(are_between(base_.order.turned, 0, static_cast<int>(base_.constraints.size())),
+          "a constrained edge turned that the mesh does not have");
+}
+
+void MeshParts::check_vertices() const {
+  require(are_between(base_.fixed, 0, n_user_vertices()), "a fixed vertex that the mesh does not have");
+}
+
+void MeshParts::check_faces() const {
+  for (const auto& t : state_.triangles) {
+    require(are_between(t, 0, n_vertices()), "a face with a corner that the mesh does not have");
+    require(t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "a face with one vertex at two corners");
+  }
+  require(std::ranges::any_of(state_.labels, [](int label) { return label != padding_label; }),
+          "a mesh that is nothing but padding");
+  for (const auto& [first, second] : state_.doubled)
+    require(is_side(first) && is_side(second), "a side that the mesh does not have");
+}
+
+void MeshParts::check_constraints() const {
+  const int n_markers = static_cast<int>(base_.markers.size());
+  for (const ListedConstraint& c : base_.constraints)
+    require(c.from >= 0 && c.from < n_vertices() && c.to >= 0 && c.to < n_vertices() && c.from != c.to &&
+                c.marker >= none && c.marker < n_markers,
+            "a constrained edge with an end or a marker that the mesh does not have");
+  require(std::ranges::all_of(state_.constraint_sides, [this](int side) { return is_side(side); }),
+          "a constrained side that the mesh does not have");
+}
+
+// Their edges are the user's, and constrained.
+void MeshParts::check_markers() const {
+  std::vector<Edge> constrained;
+  for (const ListedConstraint& c : base_.constraints) constrained.push_back(sorted({c.from, c.to}));
+  std::ranges::sort(constrained);
+  for (const Marker& marker : base_.markers)
+    for (const Edge& edge : marker.edges)
+      require(
+          are_between(edge, 0, n_user_vertices()) && std::ranges::binary_search(constrained, sorted(edge)),
+          "a marker of an edge that is not constrained");
+}
+
+void MeshParts::place_vertices() {
+  const auto& places = base_.order.vertices;
+  const int n = n_vertices(), n_user = n_user_vertices();
+  mesh_.n_user_vertices_ = n_user;
+  mesh_.frame_margin_ = base_.frame;
+  mesh_.positions_ = in_mesh_order(state_.positions, places);
+  mesh_.home_label_ = in_mesh_order(base_.home, places);
+  mesh_.user_vertex_.resize(n);
+  for (int u = 0; u < n; ++u) {
+    (u < n_user ? mesh_.vertex_of_user_ : mesh_.frame_).emplace_back(places[u]);
+    mesh_.user_vertex_[places[u]] = u < n_user ? UserVertex(u) : none;
+  }
+  mesh_.fixed_.assign(n, false);
+  for (const int v : base_.fixed) mesh_.fixed_[places[v]] = true;
+}
+
+void MeshParts::place_faces() {
+  const auto& places = base_.order.faces;
+  mesh_.user_face_.resize(places.size());
+  for (std::size_t f = 0; f < places.size(); ++f) mesh_.user_face_[places[f]] = UserFace(static_cast<int>(f));
+  mesh_.labels_ = in_mesh_order(state_.labels, places);
+  triangles_ = in_mesh_order(state_.triangles, places);
+  for (Triangle& t : triangles_) {
+    for (int& v : t) v = base_.order.vertices[v];
+    mesh_.triangles_.push_back(mesh_triangle(t));
+  }
+  mesh_.n_user_faces_ = n_faces() - static_cast<int>(std::ranges::count(mesh_.labels_, padding_label));
+}
+
+void MeshParts::connect() {
+  auto opposite = pair_sides(triangles_, n_vertices()).opposite;
+  const auto pair_of_side = [&](int number) {
+    const Side side(number);
+    return 3 * base_.order.faces[Mesh::face_of(side)] + Mesh::corner_of(side);
+  };
+  for (const auto& [first, second] : state_.doubled) {
+    opposite[pair_of_side(first)] = pair_of_side(second);
+    opposite[pair_of_side(second)] = pair_of_side(first);
+  }
+  mesh_.connect(opposite);
+  require(!mesh_.hull_.empty(), "a mesh without a border");
+  if (!mesh_.frame_.empty()) check_frame();
+}
+
+void MeshParts::check_frame() const {
+  auto corners = mesh_.frame_;
+  std::ranges::rotate(corners, std::ranges::min_element(corners));
+  require(corners == mesh_.hull_, "a frame that is not the border of its mesh");
+}
+
+void MeshParts::constrain() {
+  const auto& order = base_.order;
+  mesh_.markers_ = base_.markers;
+  for (const Marker& marker : base_.markers) mesh_.marker_names_.push_back(marker.name);
+  mesh_.label_names_ = base_.label_names;
+  auto constraints = base_.constraints;
+  turn(constraints, order.turned);
+  mesh_.constraints_.resize(constraints.size());
+  mesh_.on_constraint_.assign(n_vertices(), false);
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const auto& [a, b, left, right, marker] = constraints[i];
+    const Vertex from(order.vertices[a]), to(order.vertices[b]);
+    mesh_.constraints_[order.constraints[i]] = {from, to, left, right, marker};
+    mesh_.on_constraint_[from] = mesh_.on_constraint_[to] = true;
+  }
+  mesh_.side_of_constraint_.resize(mesh_.constraints_.size());
+  mesh_.constraint_at_.reset(mesh_.constraints_.size());
+  for (std::size_t i = 0; i < order.constraints.size(); ++i) {
+    const int number = order.constraints[i];
+    const Side side = renumbered(Side(state_.constraint_sides[i]), order.faces);
+    require(!mesh_.has_constraint(side), "an edge that is constrained twice");
+    mesh_.link(side, mesh_.word(side) | 1);
+    mesh_.remember_constraint(number, side);
+  }
+}
+
+MeshBase base_of(const Mesh& mesh) {
+  return MeshParts::base_of(mesh);
+}
+
+MeshState state_of(const Mesh& mesh, const MeshOrder& order) {
+  const int n_faces = mesh.n_faces();
+  const auto vertices = inverse(order.vertices), faces = inverse(order.faces);
+  MeshState state{.positions = std::vector<Point>(mesh.n_vertices()),
+                  .triangles = std::vector<Triangle>(n_faces),
+                  .labels = std::vector<int>(n_faces),
+                  .constraint_sides = {},
+                  .doubled = {}};
+  parallel_parts(mesh.n_vertices(), grain::items, [&](int, int begin, int end) {
+    for (int v = begin; v < end; ++v) state.positions[v] = mesh.position(Vertex(order.vertices[v]));
+  });
+  parallel_parts(n_faces, grain::items, [&](int, int begin, int end) {
+    for (int f = begin; f < end; ++f) {
+      const Face face(order.faces[f]);
+      const auto& [a, b, c] = mesh.triangles()[face];
+      state.triangles[f] = {vertices[a], vertices[b], vertices[c]};
+      state.labels[f] = mesh.label(face);
     }
+  });
+  const auto by_ends = pair_sides(state.triangles, mesh.n_vertices()).opposite;
+  for (int f = 0; f < n_faces; ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Side across = mesh.opposite(Mesh::side(Face(order.faces[f]), k));
+      if (across == none) continue;
+      const Side one = Mesh::side(Face(f), k), other = renumbered(across, faces);
+      if (one < other && side_of_pair(by_ends[3 * f + k]) != other) state.doubled.push_back({one, other});
+    }
+  }
+  std::ranges::sort(state.doubled);
+  for (const int i : order.constraints) {
+    const Side side = MeshParts::side_of(mesh, i), across = mesh.opposite(side);
+    const Side one = renumbered(side, faces);
+    state.constraint_sides.push_back(across == none ? one : std::min(one, renumbered(across, faces)));
   }
   return state;
 }
 
-Mesh rebuild(const MeshOrigin& origin) {
-  Mesh mesh = build_mesh(origin.data, {.frame = origin.frame, .fixed = origin.fixed});
-  require(user_vertices_of(mesh) == origin.user_vertices && user_faces_of(mesh) == origin.user_faces,
-          "this build of the program numbers the mesh in another way than the one that wrote it");
-  return mesh;
+Mesh restore(const MeshBase& base, const MeshState& state) {
+  return MeshParts(base, state).restore();
 }
 
-void restore(Mesh& mesh, const MeshState& state) {
-  check(mesh, state);
-  mesh.restore(faces_of(mesh, state));
-  std::ranges::copy(state.positions, mesh.positions().begin());
-  if (const auto defect = validate_connectivity(mesh)) throw InputError(defect->message());
+void require_permutation(const std::vector<int>& order) {
+  std::vector<char> is_there(order.size(), false);
+  for (const int i : order) {
+    require(i >= 0 && i < static_cast<int>(order.size()) && !is_there[i], "an order that is no permutation");
+    is_there[i] = true;
+  }
+}
+
+std::vector<int> inverse(const std::vector<int>& order) {
+  std::vector<int> places(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<int>(i);
+  return places;
 }
 
 }  // namespace kinemesh

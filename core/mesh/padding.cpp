@@ -15,7 +15,7 @@ struct Border {
   std::vector<Edge> edges;
 };
 
-Border compress(std::span<const Point> points, std::span<const Edge> border, std::span<const int> extra) {
+Border compress(std::span<const Point> points, std::span<const Edge> border, std::span<const Vertex> extra) {
   Border result;
   result.vertices.assign(extra.begin(), extra.end());
   for (const auto& edge : border) result.vertices.insert(result.vertices.end(), edge.begin(), edge.end());
@@ -32,7 +32,7 @@ Border compress(std::span<const Point> points, std::span<const Edge> border, std
 
 class Culprits {
  public:
-  Culprits(const Border& border, std::span<const int> user_number)
+  Culprits(const Border& border, std::span<const UserVertex> user_number)
       : border_(border), user_number_(user_number) {}
 
   [[noreturn]] void refuse(const Contact& contact) const {
@@ -66,11 +66,11 @@ class Culprits {
   }
 
  private:
-  int user(int local) const { return user_number_[border_.vertices[local]]; }
-  Edge user_edge(int e) const { return {user(border_.edges[e][0]), user(border_.edges[e][1])}; }
+  UserVertex user(int local) const { return user_number_[border_.vertices[local]]; }
+  UserEdge user_edge(int e) const { return {user(border_.edges[e][0]), user(border_.edges[e][1])}; }
 
   const Border& border_;
-  std::span<const int> user_number_;
+  std::span<const UserVertex> user_number_;
 };
 
 // Prefers a triangle that has a border edge to show.
@@ -88,7 +88,7 @@ int find_inside_out(const Triangulation& triangulation, const std::vector<int>& 
 }  // namespace
 
 std::vector<Triangle> pad(std::span<const Point> points, std::span<const Edge> border_edges,
-                          std::span<const int> extra, std::span<const int> user_number) {
+                          std::span<const Vertex> extra, std::span<const UserVertex> user_number) {
   const auto border = compress(points, border_edges, extra);
   const Culprits culprits(border, user_number);
   Triangulator triangulator;

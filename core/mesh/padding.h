@@ -15,6 +15,6 @@ namespace kinemesh {
 // Throws NoEmbedding (kinemesh/build.h) where border edges cross, touch, or enclose the domain wrongly.
 // `user_number` names the culprits.
 std::vector<Triangle> pad(std::span<const Point> points, std::span<const Edge> border,
-                          std::span<const int> extra, std::span<const int> user_number);
+                          std::span<const Vertex> extra, std::span<const UserVertex> user_number);
 
 }  // namespace kinemesh

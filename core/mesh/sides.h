@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemesh/types.h"
+#include "kinemesh/mesh.h"
 
 namespace kinemesh {
 
@@ -20,6 +20,15 @@ enum class Winding { Consistent, Any };
 // Pairs sides by their end points. Pre: 0 <= corners < n_vertices. O(n).
 SidePairs pair_sides(std::span<const Triangle> triangles, int n_vertices,
                      Winding winding = Winding::Consistent);
+
+// The mesh's side that is side 3f + k of these, or none; and a mesh's corners from theirs.
+inline Side side_of_pair(int side) {
+  return side == none ? Side(none) : Mesh::side(Face(side / 3), side % 3);
+}
+
+inline MeshTriangle mesh_triangle(const Triangle& t) {
+  return {Vertex(t[0]), Vertex(t[1]), Vertex(t[2])};
+}
 
 inline Edge ends_of_side(std::span<const Triangle> triangles, int side) {
   const auto& t = triangles[side / 3];

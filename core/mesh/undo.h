@@ -20,18 +20,18 @@ class Undo {
   const Mesh& mesh() const { return mesh_; }
 
   void splice(Patch& patch);
-  void flip(int side);
+  void flip(Side side);
 
-  std::vector<int> rewritten_faces() const;  // ascending, each once
+  std::vector<Face> rewritten_faces() const;  // ascending, each once
 
   void keep() noexcept { old_.clear(); }
 
   // Calls look() while the mesh is as it was before; then all is there again, and kept. If look() throws, the
   // mesh stays as it was. faces: those rewritten. Takes memory before, and none afterwards.
   template <class Look>
-  void look_back(std::span<const int> faces, const Look& look) {
+  void look_back(std::span<const Face> faces, const Look& look) {
     std::vector<FaceState> now;
-    for (const int face : faces) now.push_back(mesh_.save(face));
+    for (const Face face : faces) now.push_back(mesh_.save(face));
     take_back();
     look();
     mesh_.restore(now);
@@ -39,7 +39,7 @@ class Undo {
   void take_back() noexcept;  // all that was not kept, bit for bit
 
  private:
-  void note(int face);
+  void note(Face face);
 
   Mesh& mesh_;
   std::vector<FaceState> old_;  // the latest last

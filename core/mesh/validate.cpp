@@ -25,16 +25,16 @@ std::string number(int i) {
   return std::to_string(i);
 }
 
-// What `check` finds first among n things.
-template <class Check>
-Found first_among(int n, const Check& check) {
-  const int first = find_first(n, grain::items, [&](int i) { return check(i).has_value(); });
-  return first == none ? std::nullopt : check(first);
+// What `check` finds first among them.
+template <class Number, class Check>
+Found first_among(Numbers<Number> all, const Check& check) {
+  const int first = find_first(all.size(), grain::items, [&](int i) { return check(Number(i)).has_value(); });
+  return first == none ? std::nullopt : check(Number(first));
 }
 
-Found check_face(const Mesh& mesh, int f) {
-  for (const int side : Mesh::sides(f)) {
-    const int across = mesh.opposite(side);
+Found check_face(const Mesh& mesh, Face f) {
+  for (const Side side : Mesh::sides(f)) {
+    const Side across = mesh.opposite(side);
     if (across == none) continue;
     const bool good = mesh.opposite(across) == side && mesh.from(across) == mesh.to(side) &&
                       mesh.to(across) == mesh.from(side) && across != side;
@@ -44,15 +44,15 @@ Found check_face(const Mesh& mesh, int f) {
 }
 
 Found check_faces(const Mesh& mesh) {
-  return first_among(mesh.n_faces(), [&](int f) { return check_face(mesh, f); });
+  return first_among(mesh.faces(), [&](Face f) { return check_face(mesh, f); });
 }
 
 // The sides that start at a vertex form one fan.
-Found check_fan(const Mesh& mesh, int v, int degree) {
+Found check_fan(const Mesh& mesh, Vertex v, int degree) {
   if (mesh.is_isolated(v)) return degree == 0 ? std::nullopt : broken("a side has lost its vertex");
   int seen = 0;
   bool has_strayed = false;
-  for_each_side_from(mesh, v, [&](int side) {
+  for_each_side_from(mesh, v, [&](Side side) {
     has_strayed |= mesh.from(side) != v;
     ++seen;
   });
@@ -67,16 +67,16 @@ Found check_fan(const Mesh& mesh, int v, int degree) {
 // around ends.
 Found check_fans(const Mesh& mesh) {
   std::vector<int> degree(mesh.n_vertices(), 0);
-  for (const Triangle& corners : mesh.triangles())
-    for (const int v : corners) ++degree[v];
-  return first_among(mesh.n_vertices(), [&](int v) { return check_fan(mesh, v, degree[v]); });
+  for (const MeshTriangle& corners : mesh.triangles())
+    for (const Vertex v : corners) ++degree[v];
+  return first_among(mesh.vertices(), [&](Vertex v) { return check_fan(mesh, v, degree[v]); });
 }
 
 bool is_connected(const Mesh& mesh) {
   DisjointSets parts(mesh.n_faces());  // faces that are joined across edges
-  for (int f = 0; f < mesh.n_faces(); ++f)
-    for (const int side : Mesh::sides(f))
-      if (const int g = mesh.face_across(side); g > f) parts.join(f, g);
+  for (const Face f : mesh.faces())
+    for (const Side side : Mesh::sides(f))
+      if (const Face g = mesh.face_across(side); g > f) parts.join(f, g);
   return parts.count() == 1;
 }
 
@@ -85,9 +85,9 @@ Found check_disc(const Mesh& mesh) {
   if (!is_connected(mesh))
     return Defect{.kind = DefectKind::NotPlanar, .detail = "the padded mesh is not connected"};
   int vertices = 0, outer = 0;
-  for (int v = 0; v < mesh.n_vertices(); ++v) vertices += !mesh.is_isolated(v);
-  for (int f = 0; f < mesh.n_faces(); ++f)
-    for (const int side : Mesh::sides(f)) outer += mesh.opposite(side) == none;
+  for (const Vertex v : mesh.vertices()) vertices += !mesh.is_isolated(v);
+  for (const Face f : mesh.faces())
+    for (const Side side : Mesh::sides(f)) outer += mesh.opposite(side) == none;
   if (outer != static_cast<int>(mesh.hull().size())) {
     return Defect{.kind = DefectKind::NotPlanar, .detail = "the padded mesh has more than one border loop"};
   }
@@ -99,7 +99,7 @@ Found check_disc(const Mesh& mesh) {
 }
 
 Found check_numbering(const Mesh& mesh) {
-  for (int u = 0; u < mesh.n_user_vertices(); ++u) {
+  for (const UserVertex u : Numbers<UserVertex>(mesh.n_user_vertices())) {
     if (mesh.user_vertex(mesh.vertex_of_user(u)) != u)
       return broken("the numbering has lost vertex " + number(u));
   }
@@ -109,16 +109,16 @@ Found check_numbering(const Mesh& mesh) {
   return std::nullopt;
 }
 
-int label_beside(const Mesh& mesh, int side) {
+int label_beside(const Mesh& mesh, Side side) {
   return side == none ? padding_label : mesh.label(Mesh::face_of(side));
 }
 
 // Each constraint is one edge with its labels, and no other edge lies between two labels.
 Found check_constraints(const Mesh& mesh) {
-  std::vector<int> side_of(mesh.constraints().size(), none);
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    for (const int side : Mesh::sides(f)) {
-      const int across = mesh.opposite(side);
+  std::vector<Side> side_of(mesh.constraints().size());
+  for (const Face f : mesh.faces()) {
+    for (const Side side : Mesh::sides(f)) {
+      const Side across = mesh.opposite(side);
       if (mesh.has_constraint(side)) {
         if (across != none && !mesh.has_constraint(across))
           return broken("an edge is constrained on one side only");
@@ -132,17 +132,17 @@ Found check_constraints(const Mesh& mesh) {
   }
   for (std::size_t i = 0; i < side_of.size(); ++i) {
     const auto& c = mesh.constraints()[i];
-    const Edge ends{mesh.user_vertex(c.from), mesh.user_vertex(c.to)};
+    const UserEdge ends{mesh.user_vertex(c.from), mesh.user_vertex(c.to)};
     const auto missing = [&](const char* why) {
       return Defect{
           .kind = DefectKind::MissingEdge, .edges = {ends}, .where = mesh.position(c.from), .detail = why};
     };
-    const int side = side_of[i];
+    const Side side = side_of[i];
     if (side == none) return missing("");
     const bool is_along = mesh.from(side) == c.from && mesh.to(side) == c.to;
     if (!is_along && (mesh.from(side) != c.to || mesh.to(side) != c.from))
       return missing("its place is taken");
-    const int left = is_along ? side : mesh.opposite(side), right = is_along ? mesh.opposite(side) : side;
+    const Side left = is_along ? side : mesh.opposite(side), right = is_along ? mesh.opposite(side) : side;
     if (label_beside(mesh, left) != c.left || label_beside(mesh, right) != c.right)
       return missing("its labels have changed");
   }
@@ -150,7 +150,7 @@ Found check_constraints(const Mesh& mesh) {
 }
 
 Found check_finite(const Mesh& mesh) {
-  return first_among(mesh.n_vertices(), [&](int v) -> Found {
+  return first_among(mesh.vertices(), [&](Vertex v) -> Found {
     const Point& p = mesh.position(v);
     if (is_finite(p)) return std::nullopt;
     return Defect{.kind = DefectKind::NonFinitePosition, .vertices = {mesh.user_vertex(v)}};
@@ -158,7 +158,7 @@ Found check_finite(const Mesh& mesh) {
 }
 
 Found check_upright(const Mesh& mesh) {
-  return first_among(mesh.n_faces(), [&](int f) -> Found {
+  return first_among(mesh.faces(), [&](Face f) -> Found {
     const auto [a, b, c] = mesh.corners(f);
     const auto turn = orientation(a, b, c);
     if (turn == Orientation::CounterClockwise) return std::nullopt;
@@ -212,7 +212,7 @@ struct AreaSum {
 Found check_coverage(const Mesh& mesh) {
   const Point origin = mesh.position(mesh.hull()[0]);
   AreaSum faces, border;
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     const auto [a, b, c] = mesh.corners(f);
     if (!mesh.is_padding(f)) faces.add(a, b, c);
   }

@@ -1,32 +1,46 @@
 #include "kinemesh/shapes.h"
 
-#include <algorithm>
-#include <array>
-
+#include "core/base/registry.h"
 #include "core/shapes/shape_parts.h"
 
 namespace kinemesh {
 namespace {
 
-const std::array<ShapeInfo, 6> all_shapes{{
-    {"square", "the unit square, random vertices", {"bottom", "right", "top", "left"}, 16},
-    {"disk", "the unit disk, random vertices", {"border"}, 16},
-    {"annulus", "radius 1/2 to 1, random vertices", {"outer", "inner"}, 48},
-    {"channel",
-     "[0,4]x[0,1] around a cylinder, graded",
-     {"inlet", "outlet", "bottom", "top", "cylinder"},
-     200},
-    {"airfoil", "NACA 0012 in a round far field, graded", {"airfoil", "farfield"}, 400},
-    {"umbilic", "a tangle that covers its shadow k + 1 times", {"border"}, 379},
-}};
-
-const ShapeInfo& info(std::string_view name) {
-  const auto found =
-      std::find_if(all_shapes.begin(), all_shapes.end(), [&](const auto& s) { return s.name == name; });
-  if (found != all_shapes.end()) return *found;
-  std::string names;
-  for (const auto& shape : all_shapes) names += (names.empty() ? "" : ", ") + shape.name;
-  throw InputError("unknown shape \"" + std::string(name) + "\", expected one of " + names);
+const Registry<ShapeInfo>& registry() {
+  static const Registry<ShapeInfo> all(
+      "shape", {
+                   {"square",
+                    "the unit square, random vertices",
+                    {"bottom", "right", "top", "left"},
+                    16,
+                    [](const ShapeOptions& o) { return make_square(o.vertices, o.seed); }},
+                   {"disk",
+                    "the unit disk, random vertices",
+                    {"border"},
+                    16,
+                    [](const ShapeOptions& o) { return make_disk(o.vertices, o.seed); }},
+                   {"annulus",
+                    "radius 1/2 to 1, random vertices",
+                    {"outer", "inner"},
+                    48,
+                    [](const ShapeOptions& o) { return make_annulus(o.vertices, o.seed); }},
+                   {"channel",
+                    "[0,4]x[0,1] around a cylinder, graded",
+                    {"inlet", "outlet", "bottom", "top", "cylinder"},
+                    200,
+                    [](const ShapeOptions& o) { return make_channel(o.vertices); }},
+                   {"airfoil",
+                    "NACA 0012 in a round far field, graded",
+                    {"airfoil", "farfield"},
+                    400,
+                    [](const ShapeOptions& o) { return make_airfoil(o.vertices); }},
+                   {"umbilic",
+                    "a tangle that covers its shadow k + 1 times",
+                    {"border"},
+                    379,
+                    [](const ShapeOptions& o) { return make_umbilic(o.k, o.vertices, o.seed); }},
+               });
+  return all;
 }
 
 }  // namespace
@@ -67,18 +81,12 @@ MeshData make_grid(int nx, int ny) {
   return mesh;
 }
 
-std::span<const ShapeInfo> shapes() {
-  return all_shapes;
+std::vector<ShapeInfo> shapes() {
+  return registry().all();
 }
 
 MeshData make_shape(std::string_view name, const ShapeOptions& options) {
-  const std::string& shape = info(name).name;
-  if (shape == "square") return make_square(options.vertices, options.seed);
-  if (shape == "disk") return make_disk(options.vertices, options.seed);
-  if (shape == "annulus") return make_annulus(options.vertices, options.seed);
-  if (shape == "channel") return make_channel(options.vertices);
-  if (shape == "airfoil") return make_airfoil(options.vertices);
-  return make_umbilic(options.k, options.vertices, options.seed);
+  return registry().find(name).make(options);
 }
 
 }  // namespace kinemesh

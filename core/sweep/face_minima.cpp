@@ -26,13 +26,13 @@ Faces faces_of(int stretch, const Mesh& mesh) {
 
 bool has_padding(const Mesh& mesh, const Faces& faces) {
   int n = 0;  // counted to the end: the compiler takes several at a time
-  for (int f = faces.begin; f < faces.end; ++f) n += mesh.is_padding(f);
+  for (Face f{faces.begin}; f < faces.end; ++f) n += mesh.is_padding(f);
   return n > 0;
 }
 
 Minima without_padding(const Mesh& mesh, const Faces& faces) {
   Minima minima;
-  for (int f = faces.begin; f < faces.end; ++f) {
+  for (Face f{faces.begin}; f < faces.end; ++f) {
     if (mesh.is_padding(f)) continue;
     const auto corners = mesh.corners(f);
     minima = smaller(minima, {twice_area(corners), tangent_of_smallest_angle(corners)});
@@ -61,7 +61,7 @@ void FaceMinima::outdate_moved(const Mesh& mesh, const MovedBlocks* moved) {
 }
 
 bool FaceMinima::has_moved(int stretch, const Mesh& mesh, const MovedBlocks& moved) {
-  const int first = mesh.triangles()[faces_of(stretch, mesh).begin][0];
+  const Vertex first = mesh.triangles()[faces_of(stretch, mesh).begin][0];
   if (moved.contains(MovedBlocks::block_of(first))) return true;
   Corners& corners = corners_[stretch];
   if (corners.near == 0) corners = corners_of(stretch, mesh);
@@ -82,8 +82,8 @@ FaceMinima::Corners FaceMinima::corners_of(int stretch, const Mesh& mesh) {
     if (found.n_others < Corners::most_others) *end = block;
     ++found.n_others;
   };
-  for (int f = faces.begin; f < faces.end; ++f) {
-    for (const int vertex : mesh.triangles()[f]) {
+  for (Face f{faces.begin}; f < faces.end; ++f) {
+    for (const Vertex vertex : mesh.triangles()[f]) {
       const auto block = static_cast<unsigned>(MovedBlocks::block_of(vertex) - found.first);
       if (block < 64)
         found.near |= std::uint64_t{1} << block;
@@ -101,8 +101,8 @@ void FaceMinima::set(int stretch, const Sight& seen, const Mesh& mesh) {
   known_[stretch] = seen.doubtful == 0 ? Known::Upright : Known::Minima;
 }
 
-void FaceMinima::outdate(std::span<const int> faces) {
-  for (const int face : faces) {
+void FaceMinima::outdate(std::span<const Face> faces) {
+  for (const Face face : faces) {
     const int stretch = face / stretch_faces;
     known_[stretch] = Known::Nothing;
     if (!corners_.empty()) corners_[stretch].near = 0;

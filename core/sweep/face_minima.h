@@ -40,7 +40,7 @@ class FaceMinima {
   const Minima& of_stretch(int stretch) const { return minima_[stretch]; }
 
   // These faces have been rewritten, or their corners have moved.
-  void outdate(std::span<const int> faces);
+  void outdate(std::span<const Face> faces);
 
   // Measures what is not known, in all threads; the result does not depend on their number, nor on what was
   // known. Takes no memory, and does with one thread where TBB has none left.

@@ -5,19 +5,24 @@
 namespace kinemesh {
 namespace {
 
-static_assert(sizeof(Point) == 2 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(int));
+static_assert(sizeof(Point) == 2 * sizeof(double) && sizeof(MeshTriangle) == 3 * sizeof(int));
+
+// An Id is an int.
+const int* numbers_of(const MeshTriangle* triangles) {
+  return reinterpret_cast<const int*>(triangles);
+}
 
 template <Look look>
-Sight sweep(const Mesh& mesh, const Triangle* triangles, const Triangle* ahead) {
+Sight sweep(const Mesh& mesh, const MeshTriangle* triangles, const MeshTriangle* ahead) {
   static SweepKernel* const wide = sweep_by_four(look);
   static SweepKernel* const kernel = wide ? wide : sweep_by_two(look);
-  return kernel(&mesh.positions().data()->x, triangles->data(), ahead->data());
+  return kernel(&mesh.positions().data()->x, numbers_of(triangles), numbers_of(ahead));
 }
 
 // Filled up with the last face.
 template <Look look>
-Sight sweep_rest(const Mesh& mesh, std::span<const Triangle> rest) {
-  std::array<Triangle, stretch_faces> triangles;
+Sight sweep_rest(const Mesh& mesh, std::span<const MeshTriangle> rest) {
+  std::array<MeshTriangle, stretch_faces> triangles;
   triangles.fill(rest.back());
   std::copy(rest.begin(), rest.end(), triangles.begin());
   Sight sight = sweep<look>(mesh, triangles.data(), triangles.data());
@@ -32,7 +37,7 @@ Sight sweep_stretch(const Mesh& mesh, int stretch) {
   if (first + stretch_faces > all.size()) return sweep_rest<look>(mesh, all.subspan(first));
   constexpr std::size_t ahead = 4 * stretch_faces;  // the nearer ones come too late
   const bool goes_on = first + ahead + stretch_faces <= all.size();
-  const Triangle* const triangles = &all[first];
+  const MeshTriangle* const triangles = &all[first];
   return sweep<look>(mesh, triangles, goes_on ? triangles + ahead : triangles);
 }
 

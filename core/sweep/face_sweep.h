@@ -22,7 +22,8 @@ std::uint64_t doubtful_in_stretch(const Mesh& mesh, int stretch);
 
 // Asks for the corners of a face that comes a little after this one. The first is mostly near
 // that of the face before, since faces are in the order of their lowest vertex.
-inline void fetch_ahead(std::span<const Triangle> triangles, std::span<const Point> positions, int face) {
+inline void fetch_ahead(std::span<const MeshTriangle> triangles, std::span<const Point> positions,
+                        Face face) {
   constexpr std::size_t ahead = 64;
   const auto& t = triangles[std::min(face + ahead, triangles.size() - 1)];
   __builtin_prefetch(&positions[t[1]]);

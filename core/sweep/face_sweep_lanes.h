@@ -1,8 +1,8 @@
 // sweep_by_two and sweep_by_four, written once. For their .cpp files; all of it is local to them.
 #pragma once
 
-#include "core/exact/orientation_filter.h"
 #include "core/sweep/face_sweep_kernel.h"
+#include "kinemesh/detail/orientation_filter.h"
 
 namespace kinemesh {
 namespace {

@@ -11,11 +11,11 @@ namespace kinemesh {
 // Vertices 64 b to 64 b + 63 are block b; along the mesh's Hilbert curve they lie together.
 class MovedBlocks {
  public:
-  static int block_of(int vertex) { return vertex / block_vertices; }
+  static int block_of(Vertex vertex) { return vertex / block_vertices; }
 
   // Where positions differ, in all threads. Pre: as many before as now.
   void find(std::span<const Point> before, std::span<const Point> now);
-  void add(int vertex) { is_moved_[block_of(vertex)] = true; }
+  void add(Vertex vertex) { is_moved_[block_of(vertex)] = true; }
 
   bool contains(int block) const { return is_moved_[block]; }
   bool contain_all() const;

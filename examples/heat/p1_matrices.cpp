@@ -30,13 +30,13 @@ P1Matrices::P1Matrices(const MeshData& mesh)
 
 void P1Matrices::rewire(std::span<const FaceChange> faces) {
   for (const auto& change : faces) {
-    triangles_[change.face] = change.after;
+    triangles_[change.face] = numbers_of(change.after);
     for (const int v : change.before) std::erase(faces_at_[v], change.face);
   }
   for (const auto& change : faces)
     for (const int v : change.after) {
       auto& around = faces_at_[v];
-      around.insert(std::ranges::lower_bound(around, change.face), change.face);
+      around.insert(std::ranges::lower_bound(around, int{change.face}), change.face);
     }
 }
 

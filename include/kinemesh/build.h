@@ -8,6 +8,7 @@
 #include "kinemesh/mesh.h"
 #include "kinemesh/mesh_data.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 struct BuildOptions {
@@ -33,3 +34,4 @@ class NoEmbedding : public InputError {
 Mesh build_mesh(const MeshData& data, const BuildOptions& options = {});
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -19,11 +19,12 @@
 #include "kinemesh/step_changes.h"
 #include "kinemesh/types.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // The values of the faces that a step has rewritten.
 struct CellUpdate {
-  std::vector<int> faces;  // ascending within a patch
+  std::vector<UserFace> faces;  // ascending within a patch
   std::vector<double> values;
 
   void apply(std::span<double> cells) const noexcept;
@@ -68,3 +69,4 @@ CellUpdate transfer_by(const PatchTransfer& transfer, const StepChanges& changes
 double overlap_area(const std::array<Point, 3>& a, const std::array<Point, 3>& b);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

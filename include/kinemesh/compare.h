@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "kinemesh/scenario.h"
+#include "kinemesh/setup.h"
 #include "kinemesh/stepper.h"
-#include "sim/scenario/setup.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // What one strategy did at one step, and the mesh it left, which has been validated outside what is timed.
@@ -33,7 +34,7 @@ using TangledMeshViewer = std::function<void(int step, const Mesh& tangled)>;
 // its round is not accepted. Steps are timed in turn. Calls `view`, if there is one, before each step, `tell`
 // for each round, and returns why it ended early, if it did: no strategy had a valid mesh. Throws InputError
 // for unknown strategies, std::logic_error for a mesh that a strategy claims to be valid and is not. made: of
-// the scenario, by set_up (sim/scenario/setup.h).
+// the scenario, by set_up (kinemesh/setup.h).
 std::optional<std::string> compare_strategies(const Scenario& scenario, SetUp made,
                                               std::span<const std::string> strategies,
                                               const std::function<void(const Round&)>& tell,
@@ -49,3 +50,4 @@ struct Sweep {
 Sweep parse_sweep(const std::string& text);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

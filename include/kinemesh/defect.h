@@ -7,6 +7,7 @@
 
 #include "kinemesh/types.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 enum class DefectKind {
@@ -30,9 +31,9 @@ enum class DefectKind {
 // All numbers are the user's (order of the input, from 0).
 struct Defect {
   DefectKind kind = DefectKind::Connectivity;
-  std::vector<int> vertices = {};
-  std::vector<int> faces = {};
-  std::vector<Edge> edges = {};
+  std::vector<UserVertex> vertices = {};
+  std::vector<UserFace> faces = {};
+  std::vector<UserEdge> edges = {};
   Point where{0.0, 0.0};    // a place to look at; rounded
   std::string detail = {};  // a clause that only this case can add, may be empty
 
@@ -42,3 +43,4 @@ struct Defect {
 const char* to_string(DefectKind kind);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

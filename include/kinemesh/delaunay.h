@@ -9,6 +9,7 @@
 #include "kinemesh/local.h"
 #include "kinemesh/mesh.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // Without a defect every edge asked for, and every edge a flip or a repair has touched, is constrained or
@@ -43,29 +44,30 @@ class DelaunayFlipping {
   // From these sides' edges; sides_of the faces that are new or have a moved corner are all that can have
   // changed. Cost: their number, four visits a flip, and the repairs. Tangles that no flip meets stay. Throws
   // InputError for a side that does not exist.
-  [[nodiscard]] FlipOutcome run(Mesh& mesh, std::span<const int> sides, const RepairOptions& options = {});
+  [[nodiscard]] FlipOutcome run(Mesh& mesh, std::span<const Side> sides, const RepairOptions& options = {});
 
   // Those that the flips of the last run have rewritten, each once, in no order.
-  std::span<const int> flipped_faces() const { return flipped_faces_; }
+  std::span<const Face> flipped_faces() const { return flipped_faces_; }
 
  private:
   void reset(const Mesh& mesh);
-  void push(int side);
-  int pop();
+  void push(Side side);
+  Side pop();
   FlipOutcome run_pending(Mesh& mesh, const RepairOptions& options);
-  void visit(Mesh& mesh, int side, const RepairOptions& options, FlipOutcome& outcome);
-  void untangle(Mesh& mesh, int face, const RepairOptions& options, FlipOutcome& outcome);
-  void flip(Mesh& mesh, int edge);
-  void note_flipped(int face);
+  void visit(Mesh& mesh, Side side, const RepairOptions& options, FlipOutcome& outcome);
+  void untangle(Mesh& mesh, Face face, const RepairOptions& options, FlipOutcome& outcome);
+  void flip(Mesh& mesh, Side edge);
+  void note_flipped(Face face);
 
-  std::vector<int> pending_;      // sides, a stack: what was touched last is still in the cache
+  std::vector<Side> pending_;     // sides, a stack: what was touched last is still in the cache
   std::vector<char> is_pending_;  // per side
-  std::vector<int> flipped_faces_;
+  std::vector<Face> flipped_faces_;
   std::vector<char> is_flipped_;  // per face
   LocalUntangling untangler_;
 };
 
 // Each edge of these faces once, by the side in the lower of its faces; ascending.
-std::vector<int> sides_of(const Mesh& mesh, std::span<const int> faces);
+std::vector<Side> sides_of(const Mesh& mesh, std::span<const Face> faces);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

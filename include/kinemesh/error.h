@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // A caller's or a file's mistake. what() reads "FILE:LINE: what, and what was expected"; FILE and LINE are
@@ -33,3 +34,4 @@ class ResourceError : public std::runtime_error {
 };
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 
 #include "kinemesh/strategy.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // Each seed's minimum locally removable region is explored and re-meshed with upright faces; whatever is
@@ -22,12 +23,12 @@ class LocalUntangling : public Strategy {
   std::string_view name() const override { return "local"; }
 
   // All tangles in turn, by the smallest of the user's face numbers, those of padding last.
-  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
+  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const Move& move) override;
 
   // Only the regions of these faces (the mesh's numbers), in turn; a seed that has become upright with an
   // earlier region is done. Throws InputError, with nothing changed, for a seed that is upright at the start.
   // The counts of tangles in the record are those of the regions. On a defect nothing is changed.
-  [[nodiscard]] RepairOutcome repair_seeds(Mesh& mesh, std::span<const int> seeds,
+  [[nodiscard]] RepairOutcome repair_seeds(Mesh& mesh, std::span<const Face> seeds,
                                            const RepairOptions& options);
 
  private:
@@ -36,3 +37,4 @@ class LocalUntangling : public Strategy {
 };
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

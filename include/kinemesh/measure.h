@@ -5,6 +5,7 @@
 
 #include "kinemesh/mesh.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // Faces so large that products of their sides overflow count for nothing.
@@ -30,3 +31,4 @@ double degrees(double tangent);
 double mean_spacing(const Mesh& mesh);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -10,6 +10,7 @@
 
 #include "kinemesh/types.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // Named edges: a piece of the border, or an interior line that must stay in the mesh.
@@ -38,3 +39,4 @@ struct MeshData {
 void check_size(std::size_t n, const std::string& what);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -13,6 +13,7 @@
 #include "kinemesh/error.h"
 #include "kinemesh/mesh_data.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 enum class Format { Off, Obj, Ply, Su2, Gmsh, Vtu, Svg };
@@ -56,3 +57,4 @@ void write_mesh(const std::filesystem::path& path, const MeshData& mesh);
 std::string format_mesh(const MeshData& mesh, Format format);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -1,26 +1,82 @@
 // The motion of a mesh: fields, where they act, what the border does, and how it is integrated in time.
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
-#include "kinemesh/body.h"
 #include "kinemesh/field.h"
+#include "kinemesh/interior.h"
 #include "kinemesh/mesh.h"
-#include "motion/border.h"
-#include "motion/integrator.h"
-#include "motion/interior/interior.h"
-#include "motion/restriction.h"
+#include "kinemesh/parameters.h"
 
+// Details.
 namespace kinemesh {
+class Body;                      // motion/body.h
+class Freedom;                   // motion/border.h
+enum class Role : std::uint8_t;  // motion/interior/interior.h
+}  // namespace kinemesh
+
+#pragma GCC visibility push(default)
+namespace kinemesh {
+
+struct OnAll {};
+struct OnMarker {  // the ends of the marker's edges
+  std::string name;
+};
+struct OnLabel {  // the corners of the faces with that label
+  int label;
+};
+struct OnDisc {  // |x - center| <= radius
+  Point center;
+  double radius;
+};
+
+// Fades the motion out over the distance to the marker's edges, to the border of the label's faces, or to the
+// disc: 1 up to `full`, 1 - s^2 (3 - 2 s) between, s from 0 to 1, and 0 from `zero` on; 1 inside the label's
+// faces and the disc.
+struct Blend {
+  double full, zero;  // lengths, 0 <= full < zero
+};
+
+struct Restriction {
+  std::variant<OnAll, OnMarker, OnLabel, OnDisc> on = OnAll{};
+  std::optional<Blend> blend;  // nothing: 1 there and 0 elsewhere
+};
+
+// on: "all", "marker:NAME", "label:N" or "disc:[x,y,r]"; blend: [full, zero]. Throws ParameterError with key
+// "on" or "blend".
+Restriction parse_restriction(std::string_view on, std::optional<std::array<double, 2>> blend = std::nullopt);
 
 struct MotionTerm {
   AnyField field;
   Restriction where = {};
   std::vector<Restriction> also = {};  // more parts it acts on; a vertex in several of them moves once
+};
+
+// By strictness: of two conditions that meet in a vertex the later one holds.
+enum class BorderCondition : std::uint8_t { Moving, Slide, Fixed };
+
+struct BorderConditions {
+  // For markers not named here and border edges without a marker.
+  BorderCondition otherwise = BorderCondition::Fixed;
+  std::map<std::string, BorderCondition> by_marker;  // inner lines, too, where named
+};
+
+// Order of convergence 1, 2 and 4 [Hairer 1993, §II.1].
+enum class Integrator { Euler, Heun, Rk4 };
+
+// A body: borders and solid parts that move exactly as told.
+struct BodySpec {
+  std::vector<std::string> on;  // "marker:NAME", "label:N" (a solid part with all its vertices); one at least
+  std::vector<AnyField> motion;  // no noise; empty: it stays where it is
 };
 
 // From t0 to t1, dt long: times of a run are not added up, so that t1 may be t0 + dt but for rounding.
@@ -49,7 +105,7 @@ class Motion {
   // at the vertex. Velocities are summed and integrated together. Noise is cut to half the distance to the
   // nearest constrained edge at x0, and left out where it would bring the vertex nearer to one than a
   // thousandth of the spacing: alone it never leaves the domain. What has weight 0 and what does not
-  // move keeps its position bit by bit. Bodies are where they say (kinemesh/body.h). Pre: x0 and x1 have the
+  // move keeps its position bit by bit. Bodies are where their fields say. Pre: x0 and x1 have the
   // mesh's number of vertices and do not overlap. In parallel (TBB); the same bits whatever the number of
   // threads. x1 may be non-finite: the caller checks. Throws InputError where bodies say different things of
   // a vertex they share, or a body would leave the line of a sliding border.
@@ -66,69 +122,23 @@ class Motion {
   bool ways_inside(std::span<const Point> x0, const TimeStep& step, std::span<Point> ways) const;
 
   // Per vertex: whether its increment is known, or the interior's to find.
-  std::span<const Role> roles() const { return roles_; }
-  const Freedom& freedom() const { return freedom_; }
-  const InteriorOptions& interior() const { return interior_; }
+  std::span<const Role> roles() const;
+  const Freedom& freedom() const;
+  const InteriorOptions& interior() const;
 
   // Who made the vertex non-finite in the step from x0: a clause that names field, value, place and time.
-  std::string describe_non_finite(int vertex, std::span<const Point> x0, const TimeStep& step) const;
+  std::string describe_non_finite(Vertex vertex, std::span<const Point> x0, const TimeStep& step) const;
 
-  double spacing() const { return spacing_; }
-  std::span<const Point> initial_positions() const { return initial_; }
-  std::span<const Body> bodies() const { return bodies_; }
-  int body_of(int vertex) const {
-    return owner_.empty() ? none : owner_[vertex];
-  }                                                                 // number of its body, or none
-  const std::vector<std::string>& notes() const { return notes_; }  // what a user may not expect
+  double spacing() const;  // mean_spacing at the start
+  std::span<const Point> initial_positions() const;
+  std::span<const Body> bodies() const;
+  int body_of(Vertex vertex) const;               // number of its body, or none
+  const std::vector<std::string>& notes() const;  // what a user may not expect
 
  private:
-  template <class Field>
-  struct Weighted {
-    std::shared_ptr<const Field> field;
-    std::vector<double> weights;  // empty: 1 everywhere
-    std::vector<double> raw;      // as if it owned all it reaches; empty: as `weights`
-    bool is_inside = false;       // acts on the interior
-    double weight(int vertex) const { return weights.empty() ? 1.0 : weights[vertex]; }
-    double raw_weight(int vertex) const { return raw.empty() ? weight(vertex) : raw[vertex]; }
-  };
-
-  template <class Field>
-  static bool acts(const std::vector<Weighted<Field>>& terms, int vertex) {
-    return std::any_of(terms.begin(), terms.end(),
-                       [&](const auto& term) { return term.weight(vertex) != 0.0; });
-  }
-  void add_terms(const Mesh& mesh, const std::vector<MotionTerm>& terms);
-  void own_vertices(const Mesh& mesh);
-  void claim_borders(const Mesh& mesh, const std::vector<MotionTerm>& terms);
-  void give_roles(const Mesh& mesh, const std::vector<MotionTerm>& terms);
-  void put_on(const SlideLine& line, std::span<const Point> x0, std::span<Point> x1) const;
-  void move_bodies(std::span<const Point> x0, const TimeStep& step, std::span<Point> x1) const;
-  Point velocity(int vertex, const Point& x, double t) const;
-  Point displacement(int vertex, double t, double dt) const;
-  Point noise(int vertex, std::uint64_t step, double dt) const;
-  Point smooth_way(int vertex, const Point& x0, double t, double dt) const;
-  Point way_inside(int vertex, const Point& x0, double t, double dt) const;
-  double fill_noise(double dt, std::uint64_t step, std::span<Point> noises) const;  // returns the longest
-
-  std::vector<Weighted<VelocityField>> velocities_;
-  std::vector<Weighted<DisplacementField>> displacements_;
-  std::vector<Weighted<NoiseField>> noises_;
-  Freedom freedom_;
-  Integrator integrator_;
-  std::vector<Point> initial_;
-  std::vector<int> user_vertex_;
-  std::vector<char> constrained_vertex_;
-  std::vector<Edge> constrained_;  // ends never change, whatever is repaired
-  double spacing_, diagonal_;
-  std::vector<Body> bodies_;
-  std::vector<int> owner_;                     // per vertex: its body, or none; empty without bodies
-  std::vector<std::pair<int, int>> shared_;    // a vertex, and a body that has it, too, after its owner
-  std::vector<std::pair<int, int>> cornered_;  // a corner of a sliding border, and a body that has it
-  std::vector<int> claim_;            // per vertex of the border: number in claimed_, or none; empty without
-  std::vector<std::string> claimed_;  // markers that terms name
-  InteriorOptions interior_;
-  std::vector<Role> roles_;  // empty where nothing follows
-  std::vector<std::string> notes_;
+  class Parts;
+  std::shared_ptr<const Parts> parts_;  // never changes
 };
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include "kinemesh/error.h"
 #include "kinemesh/mesh_data.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // A face that cannot be part of a planar mesh.
@@ -30,3 +31,4 @@ class FaceError : public InputError {
 std::vector<std::string> make_consistent(MeshData& data);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -10,13 +10,14 @@
 #include <array>
 #include <cmath>
 
-#include "core/exact/orientation_filter.h"
+#include "kinemesh/detail/orientation_filter.h"
 #include "kinemesh/types.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 enum class Orientation : signed char { Clockwise = -1, Collinear = 0, CounterClockwise = 1 };
-enum class Side : signed char { Outside = -1, On = 0, Inside = 1 };
+enum class InCircle : signed char { Outside = -1, On = 0, Inside = 1 };
 
 constexpr Orientation operator-(Orientation o) {
   return static_cast<Orientation>(-static_cast<int>(o));
@@ -24,7 +25,7 @@ constexpr Orientation operator-(Orientation o) {
 
 // Out of line: exact, always right, slow (core/exact/exact.cpp).
 Orientation orientation_exact(const Point& a, const Point& b, const Point& c);
-Side in_circle_exact(const Point& a, const Point& b, const Point& c, const Point& d);
+InCircle in_circle_exact(const Point& a, const Point& b, const Point& c, const Point& d);
 
 // Which way a -> b -> c turns.
 inline Orientation orientation(const Point& a, const Point& b, const Point& c) {
@@ -40,7 +41,7 @@ inline Orientation orientation(const Point& a, const Point& b, const Point& c) {
 // Where d lies with respect to the circle through the counter-clockwise triangle a, b, c. Through a clockwise
 // one inside and outside are exchanged; through three points of a line the circle is a half-plane, as the
 // determinant has it.
-Side in_circle(const Point& a, const Point& b, const Point& c, const Point& d);
+InCircle in_circle(const Point& a, const Point& b, const Point& c, const Point& d);
 
 // Contact of closed sets. `shared` bits tell apart "same vertex" (bit set: the two ends are one mesh vertex
 // and meeting there is no contact) from "same place" (bit clear).
@@ -61,7 +62,7 @@ bool segments_cross(const Point& a, const Point& b, const Point& c, const Point&
 // True if point p lies on the closed segment a, b.
 bool on_segment(const Point& p, const Point& a, const Point& b);
 
-struct Corners {
+struct NumberedTriangle {
   std::array<Point, 3> p;
   std::array<int, 3> v;
 };
@@ -72,13 +73,14 @@ bool strictly_inside(const Point& p, const std::array<Point, 3>& triangle);
 // True if the segment meets the triangle's interior, or touches one of its sides anywhere but at a vertex
 // shared with that side: a shared corner that lies on the opposite side of a flat triangle is a contact. A
 // segment that is a side of the triangle does not touch it in this sense, whatever the triangle's shape.
-bool touches(const Segment& s, const Corners& triangle);
+bool touches(const Segment& s, const NumberedTriangle& triangle);
 
 // True if the interiors of the two triangles have a common point. Flat triangles have no interior.
 bool interiors_overlap(const std::array<Point, 3>& s, const std::array<Point, 3>& t);
 
 // True if a side of one, not a side of the other, touches the other as above: for proper triangles, if they
 // have a common point other than shared vertices and the shared edge. A triangle does not touch itself.
-bool touches(const Corners& s, const Corners& t);
+bool touches(const NumberedTriangle& s, const NumberedTriangle& t);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "kinemesh/field.h"
+#include "kinemesh/parameters.h"
 #include "kinemesh/types.h"
-#include "motion/fields/parameters.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 enum class ParameterKind {
@@ -78,8 +79,9 @@ std::vector<FieldInfo> fields();
 // constructor.
 AnyField make_field(std::string_view name, const FieldParameters& parameters);
 
-// Adds a field of the user's, before the first scenario is read (not synchronised with the two above). Throws
-// InputError if the name is taken.
+// Adds a field of the user's, for scenarios that are read from then on. Throws InputError if the name is
+// taken. All three from any threads.
 void register_field(const FieldInfo& info, const FieldFactory& factory);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 #include "kinemesh/scenario.h"
 #include "kinemesh/stepper.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 struct RunOptions {
@@ -110,3 +111,4 @@ std::string why_stopped(const StepOutcome& outcome);
 RunSummary run(const Scenario& scenario, const RunOptions& options, RunObserver& observer);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

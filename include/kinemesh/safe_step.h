@@ -6,6 +6,7 @@
 
 #include "kinemesh/types.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // Vertices move linearly, x(s) = (1 - s) x0 + s x1 for s from 0 to 1.
@@ -26,3 +27,4 @@ std::optional<SafeStep> max_safe_step(std::span<const Triangle> faces, std::span
                                       std::span<const Point> x1);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

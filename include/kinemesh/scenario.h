@@ -15,13 +15,23 @@
 #include <string>
 #include <vector>
 
-#include "motion/border.h"
-#include "motion/fields/parameters.h"
-#include "motion/integrator.h"
-#include "motion/interior/interior.h"
-#include "sim/scenario/where.h"
+#include "kinemesh/error.h"
+#include "kinemesh/interior.h"
+#include "kinemesh/motion.h"
+#include "kinemesh/parameters.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
+
+// The place in a scenario something was written at, for messages.
+struct Where {
+  std::string file;  // or the `--set key=value` it came from
+  int line = 0;      // from 1; 0 where there is none
+};
+
+inline InputError error_at(const Where& where, const std::string& what) {
+  return where.file.empty() ? InputError(what) : InputError(where.file, where.line, what);
+}
 
 // [mesh]: a file, or else a shape.
 struct MeshSpec {
@@ -147,3 +157,4 @@ std::string to_toml(const Scenario& scenario);
 std::optional<std::string> scenario_difference(const std::string& there, const std::string& here);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -7,7 +7,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +15,7 @@
 #include "kinemesh/error.h"
 #include "kinemesh/mesh_data.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // [0,1]^2 as nx by ny rectangles, each cut from lower left to upper right: (nx+1)(ny+1) vertices, row by row
@@ -54,23 +55,25 @@ double naca0012_half_thickness(double x);
 // <= k <= 32.
 MeshData make_umbilic(int k, int vertices, std::uint64_t seed = 1);
 
-// By name, for scenarios.
-struct ShapeInfo {
-  std::string name;
-  std::string description;
-  std::vector<std::string> markers;
-  int min_vertices;  // umbilic: for k = 2; in proportion to k
-};
-
 struct ShapeOptions {
   int vertices = 10000;
   std::uint64_t seed = 1;  // square, disk, annulus, umbilic
   int k = 2;               // umbilic
 };
 
-std::span<const ShapeInfo> shapes();
+// By name, for scenarios.
+struct ShapeInfo {
+  std::string name;
+  std::string description;
+  std::vector<std::string> markers;
+  int min_vertices;  // umbilic: for k = 2; in proportion to k
+  std::function<MeshData(const ShapeOptions&)> make;
+};
+
+std::vector<ShapeInfo> shapes();
 
 // Throws InputError for a name that is not in shapes(), too.
 MeshData make_shape(std::string_view name, const ShapeOptions& options = {});
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

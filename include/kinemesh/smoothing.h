@@ -7,6 +7,7 @@
 #include "kinemesh/mesh.h"
 #include "kinemesh/strategy.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 enum class SmoothingMethod {
@@ -48,3 +49,4 @@ struct SmoothingOutcome {
 [[nodiscard]] SmoothingOutcome smooth(Mesh& mesh, const SmoothingOptions& options = {});
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

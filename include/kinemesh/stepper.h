@@ -3,7 +3,7 @@
 //   kinemesh::Stepper stepper(kinemesh::build_mesh(data));
 //   while (...) {
 //     auto outcome = stepper.step(my_new_positions, dt);  // in the user's order; or stepper.step(motion, dt)
-//     if (!outcome) return report(outcome.defect->message());
+//     if (!outcome) return report(outcome.message());
 //     use(stepper.mesh().domain(), outcome.record);
 //   }
 #pragma once
@@ -17,14 +17,19 @@
 #include <vector>
 
 #include "kinemesh/defect.h"
+#include "kinemesh/detail/vertex_freedom.h"
+#include "kinemesh/interior.h"
 #include "kinemesh/mesh.h"
 #include "kinemesh/motion.h"
 #include "kinemesh/step_changes.h"
 #include "kinemesh/strategy.h"
-#include "motion/following.h"
-#include "sim/step/change_tracker.h"
-#include "untangle/quality/quality_pass.h"
 
+// A detail.
+namespace kinemesh {
+struct FollowingState;  // motion/following.h
+}  // namespace kinemesh
+
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 struct StepperOptions {
@@ -60,6 +65,9 @@ struct RegionsTooLarge {
   double share = 0.0, limit = 0.0;  // see StepperOptions::max_region_share
 };
 
+// Why a step was refused.
+enum class Refusal { None, NoValidMesh, RegionsTooLarge };
+
 // A step is a transaction: accepted, the mesh is valid at the new positions; otherwise mesh, positions and
 // time are bit for bit what they were, and one of the two says why: too_large only where max_region_share was
 // given.
@@ -69,6 +77,11 @@ struct StepOutcome {
   std::optional<RegionsTooLarge> too_large = std::nullopt;
 
   explicit operator bool() const { return !defect && !too_large; }
+
+  Refusal reason() const {
+    return defect ? Refusal::NoValidMesh : too_large ? Refusal::RegionsTooLarge : Refusal::None;
+  }
+  std::string message() const;  // the reason in one sentence; empty if the step was accepted
 };
 
 class Stepper {
@@ -81,6 +94,9 @@ class Stepper {
   explicit Stepper(const Mesh& mesh, const StepperOptions& options = {}, double time = 0.0,
                    int steps_done = 0)
       : Stepper(Mesh(mesh), options, time, steps_done) {}
+  ~Stepper();
+  Stepper(Stepper&&) noexcept;
+  Stepper& operator=(Stepper&&) noexcept;
 
   // To given positions, one per user's vertex in the user's order; with quality "smooth" or "angles" or
   // strategy "optimize" vertices may be elsewhere afterwards. Throws InputError for another number of them or
@@ -99,18 +115,18 @@ class Stepper {
   // (options.interior). Vertices of the interior may be named, too, and are then where they are asked to be,
   // whatever the quality. Throws InputError for numbers that are no vertex's or come twice, other counts, and
   // an interior that is told to follow nothing.
-  [[nodiscard]] StepOutcome step_border(std::span<const int> vertices, std::span<const Point> positions,
-                                        double dt);
-  [[nodiscard]] StepOutcome step_border_to(std::span<const int> vertices, std::span<const Point> positions,
-                                           double end_time);
+  [[nodiscard]] StepOutcome step_border(std::span<const UserVertex> vertices,
+                                        std::span<const Point> positions, double dt);
+  [[nodiscard]] StepOutcome step_border_to(std::span<const UserVertex> vertices,
+                                           std::span<const Point> positions, double end_time);
 
   // Where a motion would have the vertices go, in the mesh's numbering: what step_to repairs.
   std::vector<Point> moved(const Motion& motion, double end_time);
 
   // What the interior's next step starts from, for checkpoints; to be given to a stepper that goes on before
   // its first step.
-  FollowingState following_state() const { return following_ ? following_->state() : start_; }
-  void set_following_state(FollowingState state) { start_ = std::move(state); }
+  FollowingState following_state() const;
+  void set_following_state(FollowingState state);
 
   // For whoever lets the stepper hold the positions: one per user's vertex in the user's order, to be moved
   // in place and then repaired, as a step of length dt. After any step that returns they are those of the
@@ -123,56 +139,19 @@ class Stepper {
   // follows what it changes.
   void observe(StepObserver observer);
 
-  const Mesh& mesh() const { return mesh_; }
-  double time() const { return time_; }
-  int steps_done() const { return step_; }
-  const Strategy& strategy() const { return *strategy_; }
+  const Mesh& mesh() const;
+  double time() const;
+  int steps_done() const;
+  const Strategy& strategy() const;
 
   // Faces of the mesh, padding included, that flips of the last accepted step rewrote after its repair, each
   // once; of no meaning after a step that an observer has vetoed.
-  std::span<const int> flipped_faces() const { return quality_->flipped_faces(); }
+  std::span<const Face> flipped_faces() const;
 
  private:
-  template <class Move>
-  StepOutcome advance(double end_time, double dt, const Move& move);
-  StepOutcome step_by(const Motion& motion, double end_time, double dt);
-  StepOutcome step_border_by(std::span<const int> vertices, std::span<const Point> positions, double end_time,
-                             double dt);
-  Following& following(const InteriorOptions& options);
-  std::optional<Defect> move(const Motion& motion, const TimeStep& step, std::span<Point> next);
-  template <class Solve>
-  std::optional<Defect> follow(double end_time, std::span<Point> next, const Solve& solve);
-  StepOutcome step_by(std::span<const Point> positions, double end_time, double dt);
-  void repair_moved(StepOutcome& outcome);
-  std::optional<RegionsTooLarge> excess(const RepairRecord& record) const;
-  void outdate_repaired(const RepairRecord& record);
-  void improve(RepairRecord& record);
-  void outdate_improved();
-  void tell_observers(const StepRecord& record);
-  std::vector<MovedVertex> moved_by_quality() const;
-  void refresh_positions();
-  void measure(StepOutcome& outcome);
-
-  Mesh mesh_;
-  std::unique_ptr<Strategy> strategy_;
-  std::unique_ptr<QualityPass> quality_;
-  RepairOptions repair_;
-  FaceMinima minima_;
-  bool knows_minima_ = false;  // of the mesh as it is
-  MovedBlocks moved_;          // by the step
-  double max_region_share_;
-  std::vector<Point> next_;  // positions after the step, then before it
-  InteriorOptions interior_;
-  std::optional<Following> following_;  // once something has been followed
-  FollowingState start_;                // of its first step
-  double interior_ms_ = 0.0;            // of the step at hand
-  bool has_followed_ = false;           // likewise
-  std::vector<char> named_;       // per vertex: by step_border, and so not quality's; empty in other steps
-  std::vector<Point> positions_;  // what positions() hands out; empty before
-  std::vector<StepObserver> observers_;
-  std::unique_ptr<ChangeTracker> tracker_;  // with observers or a limit only
-  double time_;
-  int step_;
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -1,7 +1,6 @@
 // The ways to make a moved mesh valid again, behind one interface and chosen by name.
 #pragma once
 
-#include <boost/container/small_vector.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,27 +9,31 @@
 #include <string_view>
 #include <vector>
 
-#include "core/sweep/face_minima.h"
 #include "kinemesh/defect.h"
+#include "kinemesh/detail/short_list.h"
 #include "kinemesh/mesh.h"
 
+// Details.
 namespace kinemesh {
+class FaceMinima;   // core/sweep/face_minima.h
+class MovedBlocks;  // core/sweep/moved_blocks.h
+}  // namespace kinemesh
 
-// Numbers of a region's faces. Those of most regions, which are small, take no memory of their own.
-using RegionFaces = boost::container::small_vector<int, 12>;
+#pragma GCC visibility push(default)
+namespace kinemesh {
 
 // One replaced region. Counts include padding unless said otherwise.
 struct RegionRecord {
-  int seed = none;         // user's number: `local` the face it started from, others the smallest inverted or
-                           // flat one; none if it is padding, or all of them are
-  RegionFaces faces;       // R*: the mesh's faces (not the user's numbers), ascending, as they were when it
-                           // was found; their handles now hold the new faces
-  RegionFaces user_faces;  // the domain's faces among them, user's numbers, ascending
-  std::vector<int> kept;   // those of `faces` that were not replaced, ascending; none unless retained
-  int inverted = 0;        // inverted faces in it
-  int degenerate = 0;      // flat faces in it
-  int components = 0;      // inverted components
-  int explored = 0;        // faces read as candidates; equals faces.size()
+  UserFace seed;                   // `local`: the face it started from, others: the smallest inverted or flat
+                                   // one; none if it is padding, or all of them are
+  ShortList<Face> faces;           // R*, ascending, as they were when it was found; these numbers now stand
+                                   // for the new faces
+  ShortList<UserFace> user_faces;  // the domain's faces among them, ascending
+  std::vector<Face> kept;          // those of `faces` that were not replaced, ascending; none unless retained
+  int inverted = 0;                // inverted faces in it
+  int degenerate = 0;              // flat faces in it
+  int components = 0;              // inverted components
+  int explored = 0;                // faces read as candidates; equals faces.size()
   int border_edges = 0;
   int crease_edges = 0;        // edges between an inverted and an upright face
   int gamma_first_stable = 1;  // signed cover when extending first came to rest [Agarwal 2008, §4]
@@ -74,13 +77,34 @@ struct RepairOutcome {
 struct RepairOptions {
   bool allow_escaped = false;  // count vertices on the wrong side of border or interface instead of failing
   bool retain = false;         // keep upright faces of a region that need not be replaced
-  // Where the vertices came from, by the mesh's numbers: the mesh was valid there. Empty if nobody knows.
-  std::span<const Point> before{};
-  // Where the faces' areas and angles go that detection sees before anything is rewritten; nobody wants them
-  // if null. What they know already must be true of the mesh before the move; where nothing has moved it
-  // spares detection a look.
-  FaceMinima* minima = nullptr;
-  const MovedBlocks* moved = nullptr;  // anything may have moved if null
+};
+
+// The move that has brought a mesh to where it is to be repaired.
+class Move {
+ public:
+  // before: where the vertices came from, by the mesh's numbers; the mesh was valid there. Empty if nobody
+  // knows. It stays where it is as long as the move is of use.
+  Move(const RepairOptions& options = {}, std::span<const Point> before = {})
+      : options_(options), before_(before) {}
+
+  const RepairOptions& options() const { return options_; }
+  std::span<const Point> before() const { return before_; }
+
+  // What a stepper knows besides and strategies hand on to detection, which sees all faces before anything is
+  // rewritten: minima takes their areas and angles, or nobody wants them; what it knows already is true of
+  // the mesh before the move, and where nothing has moved it spares a look. Without `moved` all may have.
+  void know(FaceMinima* minima, const MovedBlocks* moved) {
+    minima_ = minima;
+    moved_ = moved;
+  }
+  FaceMinima* minima() const { return minima_; }
+  const MovedBlocks* moved() const { return moved_; }
+
+ private:
+  RepairOptions options_;
+  std::span<const Point> before_;
+  FaceMinima* minima_ = nullptr;
+  const MovedBlocks* moved_ = nullptr;
 };
 
 class Strategy {
@@ -98,7 +122,7 @@ class Strategy {
   // not in its `kept`: observers are told by these. Deterministic, whatever the number of threads. May keep
   // scratch memory between calls; one object per thread. Pre: finite positions; the border of the padded mesh
   // is convex, as hull_defect and follow (core/mesh/frame.h) keep it.
-  [[nodiscard]] virtual RepairOutcome repair(Mesh& mesh, const RepairOptions& options) = 0;
+  [[nodiscard]] virtual RepairOutcome repair(Mesh& mesh, const Move& move) = 0;
 };
 
 struct StrategyInfo {
@@ -107,9 +131,11 @@ struct StrategyInfo {
   std::function<std::unique_ptr<Strategy>()> make;
 };
 
-// Built-in and registered ones. A name registered twice is an InputError, and so is an unknown one.
-std::span<const StrategyInfo> strategies();
+// Built-in ones, then those that were registered. A name registered twice is an InputError, and so is an
+// unknown one. From any threads.
+std::vector<StrategyInfo> strategies();
 void register_strategy(StrategyInfo info);
 std::unique_ptr<Strategy> make_strategy(std::string_view name);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 
 #include "kinemesh/mesh_data.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 struct ViewBox {
@@ -32,3 +33,4 @@ void write_svg(const std::filesystem::path& path, const MeshData& mesh, const Sv
 std::string format_svg(const MeshData& mesh, const SvgOptions& options = {});
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 #include "kinemesh/defect.h"
 #include "kinemesh/mesh.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // The first defect in a fixed order: connectivity, numbering, constrained edges with their labels,
@@ -18,3 +19,4 @@ std::optional<Defect> validate(const Mesh& mesh);
 std::optional<Defect> validate_connectivity(const Mesh& mesh);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

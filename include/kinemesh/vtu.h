@@ -10,6 +10,7 @@
 
 #include "kinemesh/mesh_data.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // What a time step knows beyond its mesh. Empty spans are left out of the file.
@@ -37,3 +38,4 @@ struct PvdEntry {
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -7,8 +7,7 @@
 
 namespace kinemesh {
 
-struct RegisteredField {
-  FieldInfo info;
+struct RegisteredField : FieldInfo {
   FieldFactory make;
 };
 

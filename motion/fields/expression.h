@@ -7,7 +7,7 @@
 #include <string>
 
 #include "kinemesh/field.h"
-#include "motion/fields/parameters.h"
+#include "kinemesh/parameters.h"
 
 namespace kinemesh {
 

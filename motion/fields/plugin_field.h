@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kinemesh/field.h"
-#include "motion/fields/parameters.h"
+#include "kinemesh/parameters.h"
 
 namespace kinemesh {
 

@@ -9,7 +9,6 @@
 #include "kinemesh/field.h"
 #include "kinemesh/registry.h"
 #include "motion/fields/expression.h"
-#include "motion/fields/pose.h"
 #include "motion/fields/time_range.h"
 
 namespace kinemesh {

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/registry.h"
 #include "motion/fields/builtin_fields.h"
 
 namespace kinemesh {
 namespace {
 
-std::vector<RegisteredField>& registry() {
-  static std::vector<RegisteredField> all = builtin_fields();
+Registry<RegisteredField>& registry() {
+  static Registry<RegisteredField> all("field", builtin_fields());
   return all;
 }
 
@@ -184,22 +185,23 @@ const std::string& CheckedParameters::text(std::string_view name) const {
 }
 
 std::vector<FieldInfo> fields() {
-  std::vector<FieldInfo> all;
-  for (const auto& field : registry()) all.push_back(field.info);
-  return all;
+  const auto all = registry().all();
+  return {all.begin(), all.end()};
 }
 
 AnyField make_field(std::string_view name, const FieldParameters& parameters) {
-  for (const auto& field : registry())
-    if (field.info.name == name) return field.make(CheckedParameters(field.info, parameters));
-  throw ParameterError("field",
-                       "unknown field \"" + std::string(name) + "\", expected one of " + names_of(fields()));
+  const RegisteredField& field = [&]() -> const RegisteredField& {
+    try {
+      return registry().find(name);
+    } catch (const InputError& error) {
+      throw ParameterError("field", error.what());
+    }
+  }();
+  return field.make(CheckedParameters(field, parameters));
 }
 
 void register_field(const FieldInfo& info, const FieldFactory& factory) {
-  for (const auto& field : registry())
-    if (field.info.name == info.name) throw InputError("a field named \"" + info.name + "\" exists already");
-  registry().push_back({info, factory});
+  registry().add({info, factory});
 }
 
 }  // namespace kinemesh

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "kinemesh/field.h"
-#include "motion/fields/pose.h"
 
 namespace kinemesh {
 

@@ -63,7 +63,7 @@ Convergence ConjugateGradients<Weight>::solve(const Stiffness<Weight>& stiffness
 // Nothing pulls: the solution is 0.
 template <class Weight>
 Convergence ConjugateGradients<Weight>::rest(std::span<Point> x) const {
-  for (int v = 0; v < fans_.n_vertices(); ++v)
+  for (const Vertex v : fans_.vertices())
     if (fans_.has_row(v)) x[v] = Point(0.0, 0.0);
   return {.reached = true};
 }
@@ -71,7 +71,7 @@ Convergence ConjugateGradients<Weight>::rest(std::span<Point> x) const {
 template <class Weight>
 void ConjugateGradients<Weight>::invert_diagonal(const Stiffness<Weight>& stiffness) {
   parallel_blocks(fans_.n_vertices(), [&](int, int begin, int end) {
-    for (int v = begin; v < end; ++v)
+    for (Vertex v(begin); v < end; ++v)
       vectors_.inverse[v] = fans_.has_row(v) ? inverse_of(stiffness.diagonal(fans_, v)) : Weight(0.0);
     for (const auto& [v, tangent] : sliding_.within(begin, end))
       if (fans_.has_row(v)) vectors_.inverse[v] = inverse_along(stiffness.diagonal(fans_, v), tangent);
@@ -81,8 +81,7 @@ void ConjugateGradients<Weight>::invert_diagonal(const Stiffness<Weight>& stiffn
 template <class Weight>
 double ConjugateGradients<Weight>::norm_of_right_hand_side(const Stiffness<Weight>& stiffness,
                                                            std::span<const Point> x) {
-  for (std::size_t v = 0; v < x.size(); ++v)
-    vectors_.direction[v] = fans_.has_row(static_cast<int>(v)) ? Point(0.0, 0.0) : x[v];
+  for (const Vertex v : fans_.vertices()) vectors_.direction[v] = fans_.has_row(v) ? Point(0.0, 0.0) : x[v];
   return std::sqrt(start(stiffness, vectors_.direction).residual);
 }
 
@@ -91,7 +90,7 @@ template <class Weight>
 auto ConjugateGradients<Weight>::start(const Stiffness<Weight>& stiffness, std::span<const Point> x)
     -> Squares {
   return precondition(sum_over_blocks(fans_.n_vertices(), [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) vectors_.residual[v] = -stiffness.product(fans_, v, x.data());
+    for (Vertex v(begin); v < end; ++v) vectors_.residual[v] = -stiffness.product(fans_, v, x.data());
     sliding_.project(begin, end, vectors_.residual);
     return sum_blocks(begin, end);
   }));
@@ -103,11 +102,11 @@ double ConjugateGradients<Weight>::sum_blocks(int begin, int end) {
   double square = 0.0;
   for (int first = begin; first < end; first += block_vertices) {
     Point sum(0.0, 0.0);
-    for (int v = first; v < std::min(first + block_vertices, end); ++v) {
+    for (Vertex v(first); v < std::min(first + block_vertices, end); ++v) {
       sum += vectors_.residual[v];
       square += glm::dot(vectors_.residual[v], vectors_.inverse[v] * vectors_.residual[v]);
     }
-    vectors_.sums[block_of(first)] = sum;
+    vectors_.sums[block_of(Vertex(first))] = sum;
   }
   return square;
 }
@@ -127,7 +126,7 @@ auto ConjugateGradients<Weight>::precondition(double residual) -> Squares {
 template <class Weight>
 void ConjugateGradients<Weight>::turn(double share) {
   parallel_blocks(fans_.n_vertices(), [&](int, int begin, int end) {
-    for (int v = begin; v < end; ++v)
+    for (Vertex v(begin); v < end; ++v)
       vectors_.direction[v] = fans_.has_row(v)
                                   ? vectors_.inverse[v] * vectors_.residual[v] +
                                         vectors_.correction[block_of(v)] + share * vectors_.direction[v]
@@ -140,7 +139,7 @@ template <class Weight>
 double ConjugateGradients<Weight>::multiply(const Stiffness<Weight>& stiffness) {
   return sum_over_blocks(fans_.n_vertices(), [&](int begin, int end) {
     double curvature = 0.0;
-    for (int v = begin; v < end; ++v) {
+    for (Vertex v(begin); v < end; ++v) {
       vectors_.product[v] = stiffness.product(fans_, v, vectors_.direction.data());
       curvature += glm::dot(vectors_.direction[v], vectors_.product[v]);
     }
@@ -152,7 +151,7 @@ double ConjugateGradients<Weight>::multiply(const Stiffness<Weight>& stiffness) 
 template <class Weight>
 auto ConjugateGradients<Weight>::descend(double step, std::span<Point> x) -> Squares {
   return precondition(sum_over_blocks(fans_.n_vertices(), [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
+    for (Vertex v(begin); v < end; ++v) {
       if (fans_.has_row(v)) x[v] += step * vectors_.direction[v];
       vectors_.residual[v] -= step * vectors_.product[v];
     }

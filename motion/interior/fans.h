@@ -18,16 +18,18 @@ class Fans {
   void build(const Mesh& mesh, const std::vector<char>& has_row);
 
   int n_vertices() const { return static_cast<int>(start_.size()) - 1; }
+  Numbers<Vertex> vertices() const { return Numbers<Vertex>(n_vertices()); }
   int n_slots() const { return start_.back(); }
-  int begin(int vertex) const { return start_[vertex]; }
-  int end(int vertex) const { return start_[vertex + 1]; }
-  bool has_row(int vertex) const { return begin(vertex) != end(vertex); }
-  int neighbour(int slot) const { return neighbours_[slot]; }
-  int face(int slot) const { return faces_[slot]; }  // neighbour(slot), the next one and the vertex; or none
+  int begin(Vertex vertex) const { return start_[vertex]; }
+  int end(Vertex vertex) const { return start_[vertex + 1]; }
+  bool has_row(Vertex vertex) const { return begin(vertex) != end(vertex); }
+  Vertex neighbour(int slot) const { return neighbours_[slot]; }
+  Face face(int slot) const { return faces_[slot]; }  // neighbour(slot), the next one and the vertex; or none
 
  private:
-  std::vector<int> start_;               // per vertex, and one more
-  std::vector<int> neighbours_, faces_;  // per slot
+  std::vector<int> start_;          // per vertex, and one more
+  std::vector<Vertex> neighbours_;  // per slot
+  std::vector<Face> faces_;         // likewise
 };
 
 }  // namespace kinemesh

@@ -25,7 +25,7 @@ void check(const InteriorOptions& options) {
 
 SlidingVertices sliding_vertices(const InteriorProblem& problem) {
   SlidingVertices sliding(static_cast<int>(problem.roles.size()));
-  for (int v = 0; v < static_cast<int>(problem.roles.size()); ++v)
+  for (const Vertex v : Numbers<Vertex>(static_cast<int>(problem.roles.size())))
     if (problem.roles[v] == Role::Slide) sliding.add(v, problem.tangents.at(v));
   return sliding;
 }
@@ -42,7 +42,7 @@ void go_halfway(const Mesh& mesh, std::span<const Point> others, std::span<const
                 std::vector<Point>& halfway) {
   halfway.resize(mesh.n_vertices());
   parallel_blocks(mesh.n_vertices(), [&](int, int begin, int end) {
-    for (int v = begin; v < end; ++v) {
+    for (Vertex v(begin); v < end; ++v) {
       const Point increment = others.empty() ? increments[v] : increments[v] + others[v];
       halfway[v] = mesh.position(v) + 0.5 * increment;
     }

@@ -11,28 +11,14 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <span>
 #include <unordered_map>
 
+#include "kinemesh/interior.h"
 #include "kinemesh/mesh.h"
 
 namespace kinemesh {
-
-enum class Follow : std::uint8_t {
-  None,
-  Harmonic,  // both coordinates by themselves: translations are followed exactly
-  Elastic    // in plane strain: infinitesimal rotations, too
-};
-
-struct InteriorOptions {
-  Follow follow = Follow::Harmonic;
-  std::map<int, double> stiffness =
-      {};                   // by label, times that of the area; from 1e-6 to 1e6; 1 where not named
-  double tolerance = 1e-5;  // norm of the residual over the diagonal, relative to that of the right-hand side
-  int max_iterations = 10000;  // of each of the two solutions
-};
 
 enum class Role : std::uint8_t {
   Known,  // the increment is given

@@ -9,13 +9,13 @@ namespace kinemesh {
 
 void MovingParts::find(const Mesh& mesh, std::span<const Role> roles, std::span<const Point> increments) {
   parent_.resize(mesh.n_vertices());
-  std::iota(parent_.begin(), parent_.end(), 0);
+  std::iota(parent_.begin(), parent_.end(), Vertex(0));
   moves_.assign(mesh.n_vertices(), false);
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     if (mesh.is_padding(f)) continue;
-    int member = none;
+    Vertex member;
     bool is_pulled = false;
-    for (const int v : mesh.triangles()[f]) {
+    for (const Vertex v : mesh.triangles()[f]) {
       if (roles[v] == Role::Known)
         is_pulled |= increments[v] != Point(0.0, 0.0);
       else
@@ -24,19 +24,19 @@ void MovingParts::find(const Mesh& mesh, std::span<const Role> roles, std::span<
     if (member != none && is_pulled) moves_[member] = true;
   }
   any_moves_ = false;
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     moves_[v] = moves_[part_of(v)];
     any_moves_ |= moves_[v] != 0;
   }
 }
 
-int MovingParts::part_of(int vertex) {
+Vertex MovingParts::part_of(Vertex vertex) {
   while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
   return vertex;
 }
 
 // The lower root stays one; returns it.
-int MovingParts::unite(int a, int b) {
+Vertex MovingParts::unite(Vertex a, Vertex b) {
   a = part_of(a);
   b = part_of(b);
   const auto [low, high] = std::minmax(a, b);

@@ -22,11 +22,11 @@ class MovingParts {
   bool any_moves() const { return any_moves_; }
 
  private:
-  int part_of(int vertex);
-  int unite(int a, int b);
+  Vertex part_of(Vertex vertex);
+  Vertex unite(Vertex a, Vertex b);
 
-  std::vector<int> parent_;  // per vertex, not above it
-  std::vector<char> moves_;  // of parts by their lowest vertex first, then of all
+  std::vector<Vertex> parent_;  // per vertex, not above it
+  std::vector<char> moves_;     // of parts by their lowest vertex first, then of all
   bool any_moves_ = false;
 };
 

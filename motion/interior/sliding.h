@@ -11,7 +11,7 @@
 namespace kinemesh {
 
 struct SlidingVertex {
-  int vertex;
+  Vertex vertex;
   Point tangent;  // unit vector
 };
 
@@ -20,13 +20,13 @@ class SlidingVertices {
  public:
   explicit SlidingVertices(int n_vertices) : is_sliding_(n_vertices, false) {}
 
-  void add(int vertex, const Point& tangent) {  // ascending
+  void add(Vertex vertex, const Point& tangent) {  // ascending
     is_sliding_[vertex] = true;
     vertices_.push_back({vertex, tangent});
   }
   bool empty() const { return vertices_.empty(); }
-  bool contains(int vertex) const { return is_sliding_[vertex]; }
-  const Point& tangent(int vertex) const { return within(vertex, vertex + 1).front().tangent; }
+  bool contains(Vertex vertex) const { return is_sliding_[vertex]; }
+  const Point& tangent(Vertex vertex) const { return within(vertex, vertex + 1).front().tangent; }
 
   // Those from begin on and below end.
   std::span<const SlidingVertex> within(int begin, int end) const {

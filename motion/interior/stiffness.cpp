@@ -42,7 +42,7 @@ void scale_faces(const Mesh& mesh, std::span<const Point> positions, const std::
                  std::vector<double>& scales) {
   scales.resize(mesh.n_faces());
   parallel_parts(mesh.n_faces(), grain::moves, [&](int, int begin, int end) {
-    for (int f = begin; f < end; ++f) {
+    for (Face f(begin); f < end; ++f) {
       const auto& [a, b, c] = mesh.triangles()[f];
       scales[f] = mesh.is_padding(f) ? 0.0
                                      : stiffness_of(by_label, mesh.label(f)) *
@@ -56,8 +56,9 @@ void Stiffness<Weight>::fill(const Fans& fans, std::span<const Point> positions,
                              std::span<const double> scales) {
   weights_.resize(fans.n_slots());
   parallel_blocks(fans.n_vertices(), [&](int, int begin, int end) {
-    std::fill(weights_.begin() + fans.begin(begin), weights_.begin() + fans.begin(end), Weight(0.0));
-    for (int v = begin; v < end; ++v)
+    std::fill(weights_.begin() + fans.begin(Vertex(begin)), weights_.begin() + fans.begin(Vertex(end)),
+              Weight(0.0));
+    for (Vertex v(begin); v < end; ++v)
       for (int slot = fans.begin(v); slot < fans.end(v); ++slot) {
         if (fans.face(slot) == none) continue;
         const int next = slot + 1 < fans.end(v) ? slot + 1 : fans.begin(v);
@@ -74,7 +75,7 @@ void Stiffness<Weight>::fill(const Fans& fans, std::span<const Point> positions,
 }
 
 template <class Weight>
-Weight Stiffness<Weight>::diagonal(const Fans& fans, int vertex) const {
+Weight Stiffness<Weight>::diagonal(const Fans& fans, Vertex vertex) const {
   Weight sum(0.0);
   for (int slot = fans.begin(vertex); slot < fans.end(vertex); ++slot) sum -= weights_[slot];
   return sum;

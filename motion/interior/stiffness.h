@@ -47,10 +47,10 @@ class Stiffness {
   void fill(const Fans& fans, std::span<const Point> positions, std::span<const double> scales);
 
   const Weight& weight(int slot) const { return weights_[slot]; }  // of fans.neighbour(slot) in its row
-  Weight diagonal(const Fans& fans, int vertex) const;
+  Weight diagonal(const Fans& fans, Vertex vertex) const;
 
   // The row times x.
-  Point product(const Fans& fans, int vertex, const Point* x) const {
+  Point product(const Fans& fans, Vertex vertex, const Point* x) const {
     Point sum(0.0, 0.0);
     const Point own = x[vertex];
     for (int slot = fans.begin(vertex); slot < fans.end(vertex); ++slot)

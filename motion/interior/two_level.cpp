@@ -17,7 +17,7 @@ class Restrictions {
   explicit Restrictions(const SlidingVertices& sliding) : sliding_(sliding) {}
 
   template <class Weight>
-  Entry operator()(int row, const Weight& weight, int column) const {
+  Entry operator()(Vertex row, const Weight& weight, Vertex column) const {
     if constexpr (std::is_same_v<Entry, double>)
       return weight;
     else
@@ -25,11 +25,13 @@ class Restrictions {
   }
 
  private:
-  Block from_left(int v, const Block& entry) const { return sliding_.contains(v) ? along(v) * entry : entry; }
-  Block from_right(const Block& entry, int v) const {
+  Block from_left(Vertex v, const Block& entry) const {
+    return sliding_.contains(v) ? along(v) * entry : entry;
+  }
+  Block from_right(const Block& entry, Vertex v) const {
     return sliding_.contains(v) ? entry * along(v) : entry;
   }
-  Block along(int v) const { return glm::outerProduct(sliding_.tangent(v), sliding_.tangent(v)); }
+  Block along(Vertex v) const { return glm::outerProduct(sliding_.tangent(v), sliding_.tangent(v)); }
 
   const SlidingVertices& sliding_;
 };
@@ -42,9 +44,9 @@ int last_vertex(const Fans& fans, int block) {
 // blocks up to this one.
 template <class Visit>
 void for_each_lower_slot(const Fans& fans, int block, const Visit& visit) {
-  for (int v = block * block_vertices; v < last_vertex(fans, block); ++v)
+  for (Vertex v(block * block_vertices); v < last_vertex(fans, block); ++v)
     for (int slot = fans.begin(v); slot < fans.end(v); ++slot) {
-      const int u = fans.neighbour(slot);
+      const Vertex u = fans.neighbour(slot);
       if (block_of(u) <= block && fans.has_row(u)) visit(v, slot, block_of(u));
     }
 }
@@ -55,11 +57,11 @@ void sum_row(const Fans& fans, const Stiffness<Weight>& stiffness, const Sliding
              std::span<const int> neighbours, std::vector<Entry>& row) {
   const Restrictions<Entry> restricted(sliding);
   row.assign(neighbours.size(), Entry(0.0));
-  for_each_lower_slot(fans, block, [&](int v, int slot, int other) {
+  for_each_lower_slot(fans, block, [&](Vertex v, int slot, int other) {
     const auto place = std::lower_bound(neighbours.begin(), neighbours.end(), other) - neighbours.begin();
     row[place] += restricted(v, stiffness.weight(slot), fans.neighbour(slot));
   });
-  for (int v = block * block_vertices; v < last_vertex(fans, block); ++v)
+  for (Vertex v(block * block_vertices); v < last_vertex(fans, block); ++v)
     row.back() += restricted(v, stiffness.diagonal(fans, v), v);
 }
 
@@ -82,9 +84,9 @@ void CoarseLevel::find_neighbours(const Fans& fans) {
   start_.assign(n_blocks(fans.n_vertices()) + 1, 0);
   parallel_blocks(fans.n_vertices(), [&](int part, int begin, int end) {
     std::vector<int> row;
-    for (int block = block_of(begin); block * block_vertices < end; ++block) {
+    for (int block = block_of(Vertex(begin)); block * block_vertices < end; ++block) {
       row.assign(1, block);
-      for_each_lower_slot(fans, block, [&](int, int, int other) {
+      for_each_lower_slot(fans, block, [&](Vertex, int, int other) {
         if (other != row.back()) row.push_back(other);
       });
       std::sort(row.begin(), row.end());
@@ -119,7 +121,7 @@ void CoarseLevel::factorize(const Fans& fans, const Stiffness<Weight>& stiffness
   const auto fill = [&]<class Entry>(Entry) {
     parallel_blocks(fans.n_vertices(), [&](int, int begin, int end) {
       std::vector<Entry> row;
-      for (int block = block_of(begin); block * block_vertices < end; ++block) {
+      for (int block = block_of(Vertex(begin)); block * block_vertices < end; ++block) {
         const std::span neighbours(neighbour_.data() + start_[block], neighbour_.data() + start_[block + 1]);
         sum_row(fans, stiffness, sliding, block, neighbours, row);
         write_row(block, row);

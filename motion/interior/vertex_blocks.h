@@ -5,13 +5,14 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "kinemesh/types.h"
 
 namespace kinemesh {
 
 // Vertices 32 b to 32 b + 31 are block b.
 inline constexpr int block_vertices = 32;
 
-inline int block_of(int vertex) {
+inline int block_of(Vertex vertex) {
   return vertex / block_vertices;
 }
 inline int n_blocks(int n_vertices) {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "kinemesh/error.h"
+#include "kinemesh/setup.h"
 #include "sim/cli/bench_directory.h"
 #include "sim/cli/bench_plots.h"
 #include "sim/cli/bench_score.h"
@@ -18,7 +19,6 @@
 #include "sim/cli/numbers.h"
 #include "sim/compare/bench_bound.h"
 #include "sim/run/csv_log.h"
-#include "sim/scenario/setup.h"
 #include "sim/step/threads.h"
 
 namespace kinemesh::cli {
@@ -82,8 +82,8 @@ class BoundLog {
                 (key.empty() ? "" : "," + csv_field(key))) {}
 
   void write(int step, const BoundSample& s, const std::string& value) {
-    file_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{:.3f},{}{}", step, s.seed, s.faces(), s.upright,
-                            s.inverted, s.components, s.depth, s.crossings, s.complexity, s.rounds,
+    file_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{:.3f},{}{}", step, int{s.seed}, s.faces(),
+                            s.upright, s.inverted, s.components, s.depth, s.crossings, s.complexity, s.rounds,
                             s.explore_us, s.bound(), value.empty() ? "" : "," + csv_field(value)));
   }
 

@@ -6,10 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "kinemesh/check.h"
 #include "kinemesh/safe_step.h"
-#include "sim/cli/check_report.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
+#include "sim/cli/id_json.h"
 #include "sim/cli/mesh_arguments.h"
 
 namespace kinemesh::cli {
@@ -117,9 +118,9 @@ Json to_json(const std::string& path, const CheckReport& report) {
           {"culprits", culprits}};
 }
 
-int check_mesh(const CheckArguments& arguments) {
+int run_check(const CheckArguments& arguments) {
   const MeshData data = read(arguments.mesh);
-  const CheckReport report = check(data);
+  const CheckReport report = check_mesh(data);
   const auto way = arguments.toward.empty() ? std::nullopt : std::optional(way_to(arguments, data));
   if (arguments.json) {
     Json json = to_json(arguments.mesh.path, report);
@@ -152,7 +153,7 @@ void add_check(CLI::App& program, Action& action) {
       "\"message\"}]}\n"
       "with --toward also \"toward\", \"max_safe_step\" from 0 to 1, \"first_flat_face\" or null.\n"
       "Culprits are the first of each kind. Face and vertex numbers: order in the file, from 0.");
-  command.callback([arguments, &action] { action = [arguments] { return check_mesh(*arguments); }; });
+  command.callback([arguments, &action] { action = [arguments] { return run_check(*arguments); }; });
 }
 
 }  // namespace kinemesh::cli

@@ -66,8 +66,8 @@ void check(const DrawArguments& arguments) {
 // What of a report a figure needs.
 struct ReportedRegions {
   std::string strategy;
-  std::vector<int> seeds;               // user's numbers
-  std::vector<std::vector<int>> faces;  // likewise
+  std::vector<UserFace> seeds;
+  std::vector<std::vector<UserFace>> faces;
 };
 
 // A report is four deep; what is much deeper takes much more memory than it has bytes.
@@ -80,11 +80,11 @@ Json parse_report(const std::string& file) {
   return Json::parse(read_file(file), check_depth, false);
 }
 
-int to_face(const Json& number) {
+UserFace to_face(const Json& number) {
   const auto face = number.is_number_integer() ? number.get<std::int64_t>() : -2;
   if (face < none || face > std::numeric_limits<int>::max())
     throw InputError("damaged: " + number.dump() + " is no number of a face");
-  return static_cast<int>(face);
+  return UserFace(static_cast<int>(face));
 }
 
 ReportedRegions read_regions(const std::string& file) {
@@ -110,7 +110,7 @@ ReportedRegions read_regions(const std::string& file) {
 int chosen(const DrawArguments& arguments, const ReportedRegions& regions) {
   const int n = static_cast<int>(regions.faces.size());
   if (arguments.number == none)
-    return static_cast<int>(std::ranges::max_element(regions.faces, {}, &std::vector<int>::size) -
+    return static_cast<int>(std::ranges::max_element(regions.faces, {}, &std::vector<UserFace>::size) -
                             regions.faces.begin());
   if (arguments.number < 0 || arguments.number >= n)
     throw InputError(
@@ -122,11 +122,11 @@ int chosen(const DrawArguments& arguments, const ReportedRegions& regions) {
 RegionRecord repair_again(Mesh& mesh, const ReportedRegions& reported, int number,
                           const DrawArguments& arguments) {
   const auto by_user = mesh.faces_in_user_order();
-  const auto is_face = [&](int face) { return 0 <= face && face < static_cast<int>(by_user.size()); };
-  std::vector<int> seeds;
+  const auto is_face = [&](UserFace face) { return 0 <= face && face < static_cast<int>(by_user.size()); };
+  std::vector<Face> seeds;
   const bool is_local = reported.strategy == "local" && std::ranges::all_of(reported.seeds, is_face);
   const bool has_seed = reported.seeds[number] == none || is_face(reported.seeds[number]);
-  for (const int seed : reported.seeds)
+  for (const UserFace seed : reported.seeds)
     if (is_local) seeds.push_back(by_user[seed]);
   const RepairOutcome outcome = is_local ? LocalUntangling().repair_seeds(mesh, seeds, {})
                                          : make_strategy(reported.strategy)->repair(mesh, {});
@@ -148,7 +148,7 @@ std::string figure_of_region(const DrawArguments& arguments) {
   Mesh after = before;
   const RegionRecord region = repair_again(after, reported, number, arguments);
   draw::RegionFigure figure{before, after, {region.faces.begin(), region.faces.end()}};
-  const int seed = reported.seeds[number];
+  const UserFace seed = reported.seeds[number];
   figure.seed = seed == none ? none : before.faces_in_user_order()[seed];
   figure.is_local = reported.strategy == "local";
   figure.view = arguments.view();

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <OpenMesh/Core/System/omstream.hh>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -29,12 +28,6 @@ void occupy_standard_files() {
 // A file that exceeds its limit is an error like a full disk, no reason to be killed.
 void take_file_limits_as_errors() {
   std::signal(SIGXFSZ, SIG_IGN);
-}
-
-void silence_openmesh() {
-  omlog().disable();
-  omout().disable();
-  omerr().disable();
 }
 
 std::string command_names(const CLI::App& program) {
@@ -124,6 +117,5 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   kinemesh::cli::occupy_standard_files();
   kinemesh::cli::take_file_limits_as_errors();
-  kinemesh::cli::silence_openmesh();
   return kinemesh::cli::run_program(argc, argv);
 }

@@ -1,3 +1,4 @@
+#include "kinemesh/check.h"
 #include "kinemesh/strategy.h"
 
 #include <fmt/core.h>
@@ -9,10 +10,10 @@
 
 #include "core/io/atomic_file.h"
 #include "kinemesh/local.h"
-#include "sim/cli/check_report.h"
 #include "sim/cli/commands.h"
 #include "sim/cli/console.h"
 #include "sim/cli/file_arguments.h"
+#include "sim/cli/id_json.h"
 #include "sim/cli/mesh_arguments.h"
 #include "sim/cli/numbers.h"
 #include "untangle/walk/stuck.h"
@@ -74,9 +75,9 @@ Json to_json(const UntangleArguments& arguments, const Mesh& mesh, const RepairR
 
 void print_summary(const UntangleArguments& arguments, const Mesh& mesh, const RepairRecord& record,
                    const BeforeAndAfter& faces) {
-  std::set<int> touched;  // regions that are replaced in turn may share faces
+  std::set<Face> touched;  // regions that are replaced in turn may share faces
   for (const RegionRecord& region : record.regions) {
-    for (const int face : region.faces) {
+    for (const Face face : region.faces) {
       const bool kept = std::binary_search(region.kept.begin(), region.kept.end(), face);
       if (!kept && !mesh.is_padding(face)) touched.insert(face);
     }
@@ -110,7 +111,7 @@ std::string hint_at_optimize(const UntangleArguments& arguments, Mesh& mesh) {
 
 RepairOutcome repair_seeds(const UntangleArguments& arguments, Mesh& mesh) {
   const auto faces = mesh.faces_in_user_order();
-  std::vector<int> seeds;
+  std::vector<Face> seeds;
   for (const int seed : arguments.seeds) {
     if (seed < 0 || seed >= mesh.n_user_faces()) {
       throw InputError(
@@ -131,8 +132,9 @@ int untangle(const UntangleArguments& arguments) try {
   const std::unique_ptr<Strategy> strategy = make_strategy(arguments.strategy);
   const MeshData data = read(arguments.mesh);
   Mesh mesh = build(arguments.mesh, data);
-  const RepairOutcome outcome = arguments.seeds.empty() ? strategy->repair(mesh, {.retain = arguments.retain})
-                                                        : repair_seeds(arguments, mesh);
+  const RepairOutcome outcome = arguments.seeds.empty()
+                                    ? strategy->repair(mesh, RepairOptions{.retain = arguments.retain})
+                                    : repair_seeds(arguments, mesh);
   if (!outcome) return no_valid_mesh(arguments, *outcome.defect, hint_at_optimize(arguments, mesh));
 
   const MeshData repaired = mesh.domain();

@@ -26,39 +26,39 @@ Point crossing(const Point& a, const Point& b, const Point& c, const Point& d) {
 // How the images of a region's faces lie over each other.
 class Overlay {
  public:
-  Overlay(const Mesh& mesh, const std::vector<int>& faces) : mesh_(mesh), faces_(faces) {
+  Overlay(const Mesh& mesh, const std::vector<Face>& faces) : mesh_(mesh), faces_(faces) {
     std::vector<Box> boxes;
-    for (const int face : faces) boxes.push_back(box_of(mesh.corners(face)));
+    for (const Face face : faces) boxes.push_back(box_of(mesh.corners(face)));
     faces_tree_.build(boxes);
-    for (const int face : faces)
-      for (const int side : mesh.sides(face)) edges_.push_back(mesh.lower(side));
+    for (const Face face : faces)
+      for (const Side side : mesh.sides(face)) edges_.push_back(mesh.lower(side));
     std::sort(edges_.begin(), edges_.end());
     edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
     boxes.clear();
-    for (const int edge : edges_) boxes.push_back(box_of(end(edge, 0), end(edge, 1)));
+    for (const Side edge : edges_) boxes.push_back(box_of(end(edge, 0), end(edge, 1)));
     edges_tree_.build(boxes);
   }
 
   // A cell of the deepest is a whole face, or has a corner where two edges cross; then it is one of the four
   // there.
   void measure(BoundSample& sample) const {
-    for (const int face : faces_) sample.depth = std::max(sample.depth, depth_within(face));
+    for (const Face face : faces_) sample.depth = std::max(sample.depth, depth_within(face));
     for (std::size_t i = 0; i < edges_.size(); ++i) add_crossings(i, sample);
     sample.complexity = sample.crossings + count_upright_vertices();
   }
 
  private:
-  const Point& end(int edge, int which) const {
+  const Point& end(Side edge, int which) const {
     return mesh_.position(which == 0 ? mesh_.from(edge) : mesh_.to(edge));
   }
-  bool holds(int face) const { return std::binary_search(faces_.begin(), faces_.end(), face); }
-  Orientation turn(int face) const {
+  bool holds(Face face) const { return std::binary_search(faces_.begin(), faces_.end(), face); }
+  Orientation turn(Face face) const {
     const auto [a, b, c] = mesh_.corners(face);
     return orientation(a, b, c);
   }
 
   // Faces over a point, but for those named.
-  int depth_at(const Point& p, const std::array<int, 4>& besides) const {
+  int depth_at(const Point& p, const std::array<Face, 4>& besides) const {
     int depth = 0;
     faces_tree_.any(box_of(p, p), [&](int i) {
       const bool counts = std::find(besides.begin(), besides.end(), faces_[i]) == besides.end();
@@ -68,17 +68,17 @@ class Overlay {
     return depth;
   }
 
-  int depth_within(int face) const {
+  int depth_within(Face face) const {
     const auto [a, b, c] = mesh_.corners(face);
     return 1 + depth_at((a + b + c) / 3.0, {face, none, none, none});
   }
 
-  std::array<int, 2> beside(int edge) const { return {Mesh::face_of(edge), mesh_.face_across(edge)}; }
+  std::array<Face, 2> beside(Side edge) const { return {Mesh::face_of(edge), mesh_.face_across(edge)}; }
 
   // The more of the region's faces that lie on one side of the edge's image.
-  int depth_beside(int edge) const {
+  int depth_beside(Side edge) const {
     int left = 0, right = 0;
-    for (const int face : beside(edge)) {
+    for (const Face face : beside(edge)) {
       if (face == none || !holds(face)) continue;
       const bool is_left = (turn(face) == Orientation::CounterClockwise) == (face == Mesh::face_of(edge));
       ++(is_left ? left : right);
@@ -86,17 +86,17 @@ class Overlay {
     return std::max(left, right);
   }
 
-  bool is_upright_edge(int edge) const {
-    return std::ranges::any_of(beside(edge), [&](int face) {
+  bool is_upright_edge(Side edge) const {
+    return std::ranges::any_of(beside(edge), [&](Face face) {
       return face != none && holds(face) && turn(face) == Orientation::CounterClockwise;
     });
   }
 
   void add_crossings(std::size_t i, BoundSample& sample) const {
-    const int e = edges_[i];
+    const Side e = edges_[i];
     const Point &a = end(e, 0), &b = end(e, 1);
     edges_tree_.any(box_of(a, b), [&](int j) {
-      const int g = edges_[j];
+      const Side g = edges_[j];
       if (static_cast<std::size_t>(j) <= i || !segments_cross(a, b, end(g, 0), end(g, 1))) return false;
       sample.crossings += is_upright_edge(e) && is_upright_edge(g);
       const auto [e0, e1] = beside(e);
@@ -108,8 +108,8 @@ class Overlay {
   }
 
   int count_upright_vertices() const {
-    std::vector<int> vertices;
-    for (const int face : faces_)
+    std::vector<Vertex> vertices;
+    for (const Face face : faces_)
       if (turn(face) == Orientation::CounterClockwise)
         vertices.insert(vertices.end(), mesh_.triangles()[face].begin(), mesh_.triangles()[face].end());
     std::sort(vertices.begin(), vertices.end());
@@ -117,26 +117,26 @@ class Overlay {
   }
 
   const Mesh& mesh_;
-  const std::vector<int>& faces_;  // ascending
-  std::vector<int> edges_;         // theirs, ascending
+  const std::vector<Face>& faces_;  // ascending
+  std::vector<Side> edges_;         // theirs, ascending
   BoxTree faces_tree_, edges_tree_;
 };
 
 // The first face of each component.
-std::vector<int> seeds_of(const Mesh& mesh) {
+std::vector<Face> seeds_of(const Mesh& mesh) {
   const auto inverted = detect(mesh).inverted;
   const auto components = inverted_components(mesh, inverted);
-  std::vector<int> seeds;
+  std::vector<Face> seeds;
   for (std::size_t i = 0; i < inverted.size(); ++i)
     if (components.of[i] == static_cast<int>(seeds.size())) seeds.push_back(inverted[i]);
   return seeds;
 }
 
 // False where degenerate positions are in the way.
-bool explore(const Mesh& mesh, int seed, BoundSample& sample) {
+bool explore(const Mesh& mesh, Face seed, BoundSample& sample) {
   sample.seed = mesh.user_face(seed);
   sample.explore_us = std::numeric_limits<double>::infinity();
-  std::vector<int> faces;
+  std::vector<Face> faces;
   for (int i = 0; i < repeats; ++i) {
     const Stopwatch exploring;
     LocalExploration exploration(mesh);

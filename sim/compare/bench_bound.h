@@ -12,7 +12,7 @@ namespace kinemesh {
 // Of one seed, whose exploration ended with the region R*. d and k are found in rounded arithmetic: nothing
 // depends on them.
 struct BoundSample {
-  int seed = none;                // user's number; none in padding
+  UserFace seed;                  // none in padding
   int upright = 0, inverted = 0;  // n+, n-: faces of R*
   int components = 0;             // delta: inverted components in R*
   int depth = 0;                  // d: faces of R* over one point, at most

@@ -12,9 +12,9 @@
 #include "core/mesh/frame.h"
 #include "kinemesh/error.h"
 #include "kinemesh/run.h"
+#include "kinemesh/setup.h"
 #include "kinemesh/validate.h"
 #include "motion/following.h"
-#include "sim/scenario/setup.h"
 
 namespace kinemesh {
 namespace {

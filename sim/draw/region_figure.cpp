@@ -18,10 +18,10 @@ constexpr const char *red = "#d55e00", *blue = "#0072b2", *amber = "#e69f00", *g
 constexpr double gap = 16.0, title_height = 24.0;  // pixels
 
 // Not of the frame's corners, which are far away.
-ViewBox view_of(const Mesh& mesh, const std::vector<int>& region) {
+ViewBox view_of(const Mesh& mesh, const std::vector<Face>& region) {
   std::vector<Point> points;
-  for (const int face : region)
-    for (const int v : mesh.triangles()[face])
+  for (const Face face : region)
+    for (const Vertex v : mesh.triangles()[face])
       if (mesh.user_vertex(v) != none) points.push_back(mesh.position(v));
   Point low = points.front(), high = low;
   for (const Point& p : points) {
@@ -74,7 +74,7 @@ class Drawing {
   void draw_tangle() {
     start_picture("The tangle: inverted triangles");
     lines(figure_.before, 0.4);
-    for (const int face : detect(figure_.before).inverted)
+    for (const Face face : detect(figure_.before).inverted)
       fill(figure_.before, face, red, face == figure_.seed ? 0.9 : 0.4);
   }
 
@@ -96,26 +96,26 @@ class Drawing {
     }
     start_picture("Their shadow X");
     lines(mesh, 0.2);
-    for (const int face : figure_.region)
+    for (const Face face : figure_.region)
       if (is_inverted(mesh, face)) fill(mesh, face, red, 0.8);
   }
 
   void draw_old_faces() {
     const std::size_t n = figure_.region.size();
     start_picture(fmt::format("R*: {} triangles go, drawn over each other", n));
-    for (const int face : figure_.region) fill(figure_.before, face, amber, 0.3);
+    for (const Face face : figure_.region) fill(figure_.before, face, amber, 0.3);
     lines(figure_.before, 0.4);
   }
 
   void draw_new_faces() {
     const auto tangles = detect(figure_.after).inverted;
     start_picture(tangles.empty() ? "The new triangles" : "The new triangles; tangles elsewhere stay");
-    for (const int face : figure_.region) fill(figure_.after, face, green, 0.4);
-    for (const int face : tangles) fill(figure_.after, face, red, 0.35);
+    for (const Face face : figure_.region) fill(figure_.after, face, green, 0.4);
+    for (const Face face : tangles) fill(figure_.after, face, red, 0.35);
     lines(figure_.after, 0.4);
   }
 
-  static bool is_inverted(const Mesh& mesh, int face) {
+  static bool is_inverted(const Mesh& mesh, Face face) {
     const auto [a, b, c] = mesh.corners(face);
     return orientation(a, b, c) == Orientation::Clockwise;
   }
@@ -131,7 +131,7 @@ class Drawing {
         x, y, title, title_height, frame_.width(), frame_.height());
   }
 
-  void fill(const Mesh& mesh, int face, const char* colour, double opacity) {
+  void fill(const Mesh& mesh, Face face, const char* colour, double opacity) {
     const auto corners = mesh.corners(face);
     fill({corners.begin(), corners.end()}, colour, opacity);
   }
@@ -139,7 +139,7 @@ class Drawing {
     add(polygon, fmt::format("fill=\"{}\" fill-opacity=\"{}\"", colour, opacity));
   }
   void lines(const Mesh& mesh, double width) {
-    for (int face = 0; face < mesh.n_faces(); ++face) {
+    for (const Face face : mesh.faces()) {
       if (mesh.is_padding(face)) continue;
       const auto corners = mesh.corners(face);
       add({corners.begin(), corners.end()},

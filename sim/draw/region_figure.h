@@ -13,10 +13,10 @@ namespace kinemesh::draw {
 
 struct RegionFigure {
   const Mesh& before;
-  const Mesh& after;        // its repair: same vertices, same numbers of faces
-  std::vector<int> region;  // R*, faces of the mesh
-  int seed = none;          // a face of the mesh to be drawn darker, or none
-  bool is_local = false;    // X as a local exploration from the seed finds it; else inverted faces' shadows
+  const Mesh& after;         // its repair: same vertices, same numbers of faces
+  std::vector<Face> region;  // R*
+  Face seed = none;          // to be drawn darker, or none
+  bool is_local = false;     // X as a local exploration from the seed finds it; else inverted faces' shadows
   std::optional<ViewBox> view = {};  // default: the region with a margin
   double width = 976.0;              // pixels, of all
 };

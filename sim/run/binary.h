@@ -1,5 +1,5 @@
-// Numbers, texts and lists of them as bytes in a fixed order, little endian, and the seal around them. The
-// layer below checkpoints and failed steps; the layout is in docs/formats.md. Internal to sim/.
+// Numbers, texts and lists of them as bytes in a fixed order, little endian. The layer below checkpoints,
+// failed steps and patches; the layout is in docs/formats.md. Internal to sim/.
 #pragma once
 
 #include <algorithm>
@@ -57,6 +57,7 @@ class Writer {
     (put(values), ...);
   }
   const std::string& bytes() const { return bytes_; }
+  std::string take() && { return std::move(bytes_); }
 
  private:
   template <Numeric T>
@@ -166,7 +167,7 @@ template <class T>
 std::string bytes_of(const T& thing) {
   Writer writer;
   writer(thing);
-  return writer.bytes();
+  return std::move(writer).take();
 }
 
 template <class T>
@@ -177,20 +178,5 @@ T parsed(std::string_view bytes) {
   reader.expect_end();
   return thing;
 }
-
-// What a sealed file is: the first eight bytes, the number of its layout, and what messages call it.
-struct Kind {
-  std::string_view magic;
-  std::uint32_t version;
-  std::string_view name;
-};
-
-// magic, version, length of the payload, payload, checksum of all before.
-std::string seal(const Kind& kind, std::string_view payload);
-
-// The payload. Throws InputError that says in which way it is none: of another kind, truncated, damaged, of
-// another version. Every change of up to 32 bits in a row is noticed, and others but for one in four
-// billion.
-std::string_view unseal(const Kind& kind, std::string_view file);
 
 }  // namespace kinemesh::binary

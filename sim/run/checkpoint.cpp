@@ -60,17 +60,54 @@ void members(Archive& archive, S& following) {
   archive(following.increments, following.dt);
 }
 
-template <class Archive, class S>
-requires Is<S, Checkpoint>
-void members(Archive& archive, S& checkpoint) {
-  archive(checkpoint.program, checkpoint.scenario, checkpoint.origin, checkpoint.mesh, checkpoint.time,
-          checkpoint.step, checkpoint.adaptive, checkpoint.following, checkpoint.totals, checkpoint.series,
-          checkpoint.logs);
-}
-
 namespace {
 
-constexpr binary::Kind kind{"KMCHKPT\n", 5, "checkpoint of kinemesh"};
+constexpr binary::FileKind kind{"KMCHKPT\n", "checkpoint of kinemesh", "that version can go on from it"};
+
+// What goes by the mesh's numbers, in the user's order, as the file has it.
+SeriesState sorted(SeriesState series, const MeshOrder& order) {
+  series.replaced = in_user_order(series.replaced, order.faces);
+  series.region = in_user_order(series.region, order.faces);
+  return series;
+}
+
+FollowingState sorted(FollowingState following, const MeshOrder& order) {
+  if (!following.increments.empty())
+    following.increments = in_user_order(following.increments, order.vertices);
+  return following;
+}
+
+// And back.
+SeriesState placed(SeriesState series, const MeshOrder& order) {
+  if (series.replaced.size() != order.faces.size() || series.region.size() != order.faces.size())
+    throw InputError("the series of a mesh of another size");
+  series.replaced = in_mesh_order(series.replaced, order.faces);
+  series.region = in_mesh_order(series.region, order.faces);
+  return series;
+}
+
+FollowingState placed(FollowingState following, const MeshOrder& order) {
+  if (following.increments.empty()) return following;
+  if (following.increments.size() != order.vertices.size())
+    throw InputError("the interior of a mesh of another size");
+  following.increments = in_mesh_order(following.increments, order.vertices);
+  return following;
+}
+
+// In the order of the file.
+template <class Sections, class C, class Series, class Following>
+void list_sections(Sections& sections, C& checkpoint, Series& series, Following& following) {
+  sections({"program", 1}, checkpoint.program);
+  sections({"scenario", 1}, checkpoint.scenario);
+  base_sections(sections, checkpoint.base);
+  sections({"initial", 1}, checkpoint.initial);
+  sections({"state", 1}, checkpoint.mesh);
+  sections({"time", 1}, checkpoint.time, checkpoint.step, checkpoint.adaptive);
+  sections({"interior", 1}, following);
+  sections({"totals", 1}, checkpoint.totals);
+  sections({"series", 1}, series);
+  sections({"logs", 1}, checkpoint.logs);
+}
 
 constexpr const char* current_name = "checkpoint.bin";
 constexpr const char* previous_name = "checkpoint_prev.bin";
@@ -88,15 +125,10 @@ Restart restart_from(Checkpoint checkpoint, const std::string& scenario) {
   if (const auto differs = scenario_difference(checkpoint.scenario, scenario))
     throw InputError("is of another scenario: " + *differs);
   check_progress(checkpoint);
-  Mesh initial = rebuild(checkpoint.origin), mesh = initial;
-  restore(mesh, checkpoint.mesh);
-  if (const auto defect = validate(mesh)) throw InputError(defect->message());
-  const auto n_faces = static_cast<std::size_t>(mesh.n_faces());
-  if (checkpoint.series.replaced.size() != n_faces || checkpoint.series.region.size() != n_faces)
-    throw InputError("the series of a mesh of another size");
-  const auto& increments = checkpoint.following.increments;
-  if (!increments.empty() && increments.size() != static_cast<std::size_t>(mesh.n_vertices()))
-    throw InputError("the interior of a mesh of another size");
+  Mesh initial = restore(checkpoint.base, checkpoint.initial);
+  Mesh mesh = restore(checkpoint.base, checkpoint.mesh);
+  for (const Mesh* one : {&initial, &mesh})
+    if (const auto defect = validate(*one)) throw InputError(defect->message());
   return {std::move(checkpoint), std::move(initial), std::move(mesh)};
 }
 
@@ -130,11 +162,25 @@ void rename_file(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 std::string format_checkpoint(const Checkpoint& checkpoint) {
-  return binary::seal(kind, binary::bytes_of(checkpoint));
+  const MeshOrder& order = checkpoint.base.order;
+  const SeriesState series = sorted(checkpoint.series, order);
+  const FollowingState following = sorted(checkpoint.following, order);
+  binary::SectionWriter writer;
+  list_sections(writer, checkpoint, series, following);
+  return std::move(writer).file(kind);
 }
 
 Checkpoint parse_checkpoint(std::string_view content) {
-  return binary::parsed<Checkpoint>(binary::unseal(kind, content));
+  binary::SectionReader reader(kind, content);
+  Checkpoint checkpoint;
+  list_sections(reader, checkpoint, checkpoint.series, checkpoint.following);
+  reader.expect_end();
+  const MeshOrder& order = checkpoint.base.order;
+  require_permutation(order.vertices);
+  require_permutation(order.faces);
+  checkpoint.series = placed(std::move(checkpoint.series), order);
+  checkpoint.following = placed(std::move(checkpoint.following), order);
+  return checkpoint;
 }
 
 void write_checkpoint(const fs::path& directory, const Checkpoint& checkpoint) {

@@ -10,6 +10,7 @@
 
 #include "core/mesh/mesh_state.h"
 #include "kinemesh/run.h"
+#include "motion/following.h"
 #include "sim/run/adaptive_steps.h"
 #include "sim/run/csv_log.h"
 #include "sim/run/series.h"
@@ -19,7 +20,8 @@ namespace kinemesh {
 struct Checkpoint {
   std::string program;   // its version; only to be told
   std::string scenario;  // to_toml
-  MeshOrigin origin;     // initial positions for displacements, weights and border conditions with it
+  MeshBase base;
+  MeshState initial;  // positions for displacements, weights and border conditions with it
   MeshState mesh;
   double time = 0.0;
   int step = 0;
@@ -33,14 +35,16 @@ struct Checkpoint {
 // As a file's content; see docs/formats.md.
 std::string format_checkpoint(const Checkpoint& checkpoint);
 
-// Throws InputError, without a file's name, for whatever is no whole checkpoint of this version.
+// Throws InputError, without a file's name, for whatever is no whole checkpoint with these sections in these
+// versions.
 Checkpoint parse_checkpoint(std::string_view content);
 
 // Makes checkpoint.bin of it and checkpoint_prev.bin of what checkpoint.bin was. Each of them is a whole
 // checkpoint at any moment, or is not there; one of them always is. Throws InputError naming the file.
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint);
 
-// A checkpoint with the mesh as it was built and as it had become.
+// A checkpoint with the mesh as it was when the run began and as it had become: put together from the
+// checkpoint alone.
 struct Restart {
   Checkpoint checkpoint;
   Mesh initial, mesh;

@@ -34,7 +34,7 @@ std::string steps_csv_row(const StepRecord& s) {
 }
 
 std::string regions_csv_row(int step, int number, const RegionRecord& r) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", step, number, r.seed, r.faces.size(),
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", step, number, int{r.seed}, r.faces.size(),
                      r.inverted, r.components, r.explored, r.border_edges, r.crease_edges,
                      r.self_overlap ? 1 : 0, r.retries, r.centre.x, r.centre.y);
 }

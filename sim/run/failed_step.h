@@ -18,7 +18,7 @@ struct FailedStep {
   std::string message;  // why the run stopped
   std::string detail;   // of the defect, as only what moves the vertices knows it
   StepperOptions options;
-  MeshOrigin origin;
+  MeshBase base;
   MeshState mesh;            // before the step
   std::vector<Point> moved;  // to where it moves the vertices, in the user's order; may be non-finite
   double time = 0.0, end_time = 0.0;

@@ -1,8 +1,8 @@
-// Meshes in binary files: the members of their parts, in the order of the file. Internal to sim/.
+// Meshes in files of sections: the members of their parts, in the order of the file. Internal to sim/.
 #pragma once
 
 #include "core/mesh/mesh_state.h"
-#include "sim/run/binary.h"
+#include "sim/run/sections.h"
 
 namespace kinemesh {
 
@@ -13,21 +13,29 @@ void members(Archive& archive, S& marker) {
 }
 
 template <class Archive, class S>
-requires binary::Is<S, MeshData>
-void members(Archive& archive, S& data) {
-  archive(data.points, data.triangles, data.labels, data.markers, data.label_names);
+requires binary::Is<S, ListedConstraint>
+void members(Archive& archive, S& constraint) {
+  archive(constraint.from, constraint.to, constraint.left, constraint.right, constraint.marker);
 }
 
 template <class Archive, class S>
-requires binary::Is<S, MeshOrigin>
-void members(Archive& archive, S& origin) {
-  archive(origin.data, origin.frame, origin.fixed, origin.user_vertices, origin.user_faces);
+requires binary::Is<S, MeshOrder>
+void members(Archive& archive, S& order) {
+  archive(order.vertices, order.faces, order.constraints, order.turned);
 }
 
 template <class Archive, class S>
 requires binary::Is<S, MeshState>
 void members(Archive& archive, S& state) {
-  archive(state.positions, state.triangles, state.across, state.labels, state.constraint_sides);
+  archive(state.positions, state.triangles, state.labels, state.constraint_sides, state.doubled);
+}
+
+// The sections of what all states of a mesh have in common.
+template <class Sections, class S>
+requires binary::Is<S, MeshBase>
+void base_sections(Sections& sections, S& base) {
+  sections({"mesh", 1}, base.frame, base.fixed, base.home, base.constraints, base.markers, base.label_names);
+  sections({"order", 1}, base.order);
 }
 
 }  // namespace kinemesh

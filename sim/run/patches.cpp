@@ -54,8 +54,8 @@ FacePatch arrays_of(const ChangedPatch& changed) {
   patch.regions = changed.regions;
   for (const FaceChange& change : changed.faces) {
     patch.faces.push_back(change.face);
-    patch.before.push_back(change.before);
-    patch.after.push_back(change.after);
+    patch.before.push_back(numbers_of(change.before));
+    patch.after.push_back(numbers_of(change.after));
     patch.label_before.push_back(change.label_before);
     patch.label_after.push_back(change.label_after);
   }
@@ -69,13 +69,13 @@ bool is_same(const Point& a, const Point& b) {
 // A list of the moved ones pays where it is shorter than all positions.
 void add_positions(const StepChanges& changes, PatchesStep& step) {
   const int n = changes.mesh.n_user_vertices();
-  for (int v = 0; v < n; ++v)
+  for (const UserVertex v : Numbers<UserVertex>(n))
     if (!is_same(changes.before(v), changes.after(v))) step.moved.push_back(v);
   if (step.moved.size() * 20 >= static_cast<std::size_t>(n) * 16) {
     step.moved.clear();
     step.positions = changes.mesh.user_positions();
   } else {
-    for (const int v : step.moved) step.positions.push_back(changes.after(v));
+    for (const int v : step.moved) step.positions.push_back(changes.after(UserVertex(v)));
   }
 }
 

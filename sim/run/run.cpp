@@ -14,6 +14,7 @@
 #include "core/mesh/mesh_state.h"
 #include "kinemesh/measure.h"
 #include "kinemesh/mesh_io.h"
+#include "kinemesh/setup.h"
 #include "sim/run/checkpoint.h"
 #include "sim/run/csv_log.h"
 #include "sim/run/failed_step.h"
@@ -22,7 +23,6 @@
 #include "sim/run/run_report.h"
 #include "sim/run/series.h"
 #include "sim/run/stop_signal.h"
-#include "sim/scenario/setup.h"
 #include "sim/step/threads.h"
 #include "untangle/walk/stuck.h"
 
@@ -98,7 +98,8 @@ class Runner {
         json_(started(scenario, options, plan)),
         log_(directory_),
         series_(directory_, set_up.mesh) {
-    checkpoint_.origin = origin_of(set_up.mesh);
+    checkpoint_.base = base_of(set_up.mesh);
+    checkpoint_.initial = state_of(set_up.mesh, checkpoint_.base.order);
     if (scenario.output.patches) patches_.emplace(directory_, set_up.mesh);
     begin(std::move(plan));
     write_mesh_of_step();
@@ -258,7 +259,6 @@ class Runner {
       step.message = message;
       step.detail = detail;
       step.options = options_of(scenario_, motion_);
-      step.origin = checkpoint_.origin;
       json_.claim({"failed_step.bin"});
       write_file_atomically(directory_ / "failed_step.bin", format_failed_step(step));
       observer_.note("the step is in " + (directory_ / "failed_step.bin").string() + ", for kinemesh replay");
@@ -295,7 +295,7 @@ class Runner {
   // The lengths are those at the end of the last accepted step: a rejected one comes again.
   void write_checkpoint_of_step() {
     if (last_checkpoint_ == stepper_.steps_done()) return;
-    checkpoint_.mesh = state_of(stepper_.mesh());
+    checkpoint_.mesh = state_of(stepper_.mesh(), checkpoint_.base.order);
     checkpoint_.time = stepper_.time();
     checkpoint_.step = stepper_.steps_done();
     checkpoint_.totals = summary_;
@@ -340,7 +340,7 @@ class Runner {
   MeshSeries series_;
   std::optional<PatchesWriter> patches_;
   RunSummary summary_;
-  Checkpoint checkpoint_;    // its origin and scenario, and the logs' lengths after the last accepted step
+  Checkpoint checkpoint_;    // base, initial mesh, scenario; the logs' lengths after the last accepted step
   int last_checkpoint_ = 0;  // step
   bool is_file_broken_ = false;  // the last step is done, but not in the files
 };

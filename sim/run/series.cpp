@@ -20,12 +20,12 @@ MeshSeries::MeshSeries(const std::filesystem::path& directory, const Mesh& initi
   remove_later_meshes(directory_, kept);
 }
 
-void MeshSeries::note_step(const StepRecord& record, std::span<const int> flipped_faces) {
-  for (const int face : flipped_faces) state_.replaced[face] = 1;
+void MeshSeries::note_step(const StepRecord& record, std::span<const Face> flipped_faces) {
+  for (const Face face : flipped_faces) state_.replaced[face] = 1;
   std::fill(state_.region.begin(), state_.region.end(), none);
   const auto& regions = record.repair.regions;
   for (size_t i = 0; i < regions.size(); ++i) {
-    for (const int face : regions[i].faces) {
+    for (const Face face : regions[i].faces) {
       state_.region[face] = static_cast<int>(i);
       if (!std::binary_search(regions[i].kept.begin(), regions[i].kept.end(), face))
         state_.replaced[face] = 1;
@@ -38,7 +38,7 @@ void MeshSeries::write(const Mesh& mesh, int step, double time) {
   for (size_t v = 0; v < displacement.size(); ++v) displacement[v] -= initial_[v];
   std::vector<std::uint8_t> replaced;
   std::vector<int> region;
-  for (const int face : mesh.faces_in_user_order()) {
+  for (const Face face : mesh.faces_in_user_order()) {
     replaced.push_back(state_.replaced[face]);
     region.push_back(state_.region[face]);
   }

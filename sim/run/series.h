@@ -31,7 +31,7 @@ class MeshSeries {
   MeshSeries(const std::filesystem::path& directory, const Mesh& initial, SeriesState state);
 
   // Call after each accepted step, written or not.
-  void note_step(const StepRecord& record, std::span<const int> flipped_faces);
+  void note_step(const StepRecord& record, std::span<const Face> flipped_faces);
 
   // The files stay as they were if it throws InputError, which names the file. The .pvd never names a file
   // that is not there.

@@ -4,8 +4,8 @@
 #include <optional>
 #include <sstream>
 
+#include "kinemesh/scenario.h"
 #include "sim/scenario/toml_text.h"
-#include "sim/scenario/where.h"
 
 namespace kinemesh {
 namespace {

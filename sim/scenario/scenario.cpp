@@ -11,6 +11,8 @@
 #include "kinemesh/registry.h"
 #include "kinemesh/shapes.h"
 #include "kinemesh/strategy.h"
+#include "motion/border.h"
+#include "motion/integrator.h"
 #include "motion/interior/stiffness.h"
 #include "motion/restriction.h"
 #include "sim/scenario/overrides.h"

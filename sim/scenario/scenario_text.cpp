@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "kinemesh/scenario.h"
+#include "motion/integrator.h"
 
 namespace kinemesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/scenario/setup.h"
+#include "kinemesh/setup.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,8 +14,11 @@
 #include "kinemesh/registry.h"
 #include "kinemesh/shapes.h"
 #include "kinemesh/validate.h"
+#include "motion/body.h"
+#include "motion/border.h"
 #include "motion/fields/prescribed_path.h"
 #include "motion/fields/recorded.h"
+#include "motion/interior/interior.h"
 #include "motion/restriction.h"
 #include "sim/scenario/shared_fields.h"
 #include "sim/scenario/toml_table.h"
@@ -132,7 +135,7 @@ std::vector<BodySpec> bodies_of(const Scenario& scenario, const Mesh& mesh, cons
 void require_body_files(const Scenario& scenario, const Motion& motion, const std::vector<BodySpec>& bodies) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<Point> places;
-    for (const int v : motion.bodies()[b].vertices()) places.push_back(motion.initial_positions()[v]);
+    for (const Vertex v : motion.bodies()[b].vertices()) places.push_back(motion.initial_positions()[v]);
     for (std::size_t i = 0; i < bodies[b].motion.size(); ++i)
       require_file(bodies[b].motion[i], scenario.time.end, scenario.bodies[b].motions[i].where_of("file"),
                    [&](const RecordedPositions& record) { record.require_all(places); });
@@ -142,7 +145,7 @@ void require_body_files(const Scenario& scenario, const Motion& motion, const st
 void require_labels(const InteriorSpec& interior, const Mesh& mesh) {
   if (interior.label_where.empty()) return;
   std::set<int> labels;
-  for (int f = 0; f < mesh.n_faces(); ++f)
+  for (const Face f : mesh.faces())
     if (!mesh.is_padding(f)) labels.insert(mesh.label(f));
   for (const auto& [label, where] : interior.label_where)
     if (!labels.contains(label))
@@ -155,7 +158,7 @@ bool is_idle(const MotionSpec& spec, const Mesh& mesh, const Motion& motion) {
   bool meets_body = false;
   for (const std::string& part : spec.on) {
     const auto named = weights(mesh, parse_restriction(part, spec.blend));
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Vertex v : mesh.vertices()) {
       if (!named.empty() && named[v] == 0.0) continue;
       if (motion.body_of(v) == none && motion.freedom().of(v) != BorderCondition::Fixed) return false;
       meets_body |= motion.body_of(v) != none;
@@ -202,8 +205,8 @@ Where where_of(const Scenario& scenario, std::string_view key) {
 
 // The first vertex of the convex hull that may leave it: one that moves freely, or slides along a slanted
 // line, where rounding takes it off the line. Along x or y it stays exactly.
-std::optional<int> leaving_hull_vertex(const Mesh& mesh, const Freedom& freedom) {
-  const auto leaves = [&](int v) {
+std::optional<Vertex> leaving_hull_vertex(const Mesh& mesh, const Freedom& freedom) {
+  const auto leaves = [&](Vertex v) {
     return freedom.of(v) == BorderCondition::Moving ||
            freedom.allowed(v, mesh.position(v), {1.0, 0.0}).y != 0.0;
   };
@@ -232,16 +235,16 @@ VertexFreedom freedom_of(const Motion& motion) {
   const auto initial = motion.initial_positions();
   if (!motion.bodies().empty()) freedom.held.assign(initial.size(), false);
   for (const Body& body : motion.bodies())
-    for (const int v : body.vertices()) freedom.held[v] = true;
-  const auto may_slide = [&](int v) {
+    for (const Vertex v : body.vertices()) freedom.held[v] = true;
+  const auto may_slide = [&](Vertex v) {
     return motion.freedom().of(v) == BorderCondition::Slide && motion.body_of(v) == none;
   };
   for (const SlideLine& line : motion.freedom().lines()) {
     if (line.is_straight()) {
-      for (const int v : line.vertices())
+      for (const Vertex v : line.vertices())
         if (may_slide(v)) freedom.tangents.emplace(v, motion.freedom().tangent(v, initial[v]));
     } else {
-      for (const int v : line.inner_vertices())
+      for (const Vertex v : line.inner_vertices())
         if (may_slide(v)) freedom.curve_of.emplace(v, static_cast<int>(freedom.curves.size()));
       freedom.curves.push_back(line);
     }

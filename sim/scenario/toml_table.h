@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "motion/fields/parameters.h"
-#include "sim/scenario/where.h"
+#include "kinemesh/parameters.h"
+#include "kinemesh/scenario.h"
 
 namespace kinemesh {
 

@@ -58,7 +58,7 @@ Corners turned_upright(Corners t) {
 }
 
 // Where the face's vertices are after the step. Not for corners of the frame.
-Corners carried(const StepChanges& changes, const Triangle& corners) {
+Corners carried(const StepChanges& changes, const UserTriangle& corners) {
   return {changes.after(corners[0]), changes.after(corners[1]), changes.after(corners[2])};
 }
 

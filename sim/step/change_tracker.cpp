@@ -13,17 +13,17 @@ namespace {
 // Calls visit(face) for those that the region has replaced.
 template <class Visit>
 void for_each_replaced(const RegionRecord& region, const Visit& visit) {
-  for (const int face : region.faces)
+  for (const Face face : region.faces)
     if (!std::binary_search(region.kept.begin(), region.kept.end(), face)) visit(face);
 }
 
-int first_replaced(const RegionRecord& region) {
-  int first = none;
-  for_each_replaced(region, [&](int face) { first = first == none ? face : first; });
+Face first_replaced(const RegionRecord& region) {
+  Face first;
+  for_each_replaced(region, [&](Face face) { first = first == none ? face : first; });
   return first;
 }
 
-void sort_unique(std::vector<int>& numbers) {
+void sort_unique(std::vector<UserVertex>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
@@ -33,9 +33,9 @@ void finish(ChangedPatch& patch) {
   std::sort(patch.faces.begin(), patch.faces.end(),
             [](const FaceChange& a, const FaceChange& b) { return a.face < b.face; });
   for (const auto& change : patch.faces) {
-    for (const Triangle& corners : {change.before, change.after})
+    for (const auto& corners : {change.before, change.after})
       std::copy_if(corners.begin(), corners.end(), std::back_inserter(patch.vertices),
-                   [](int v) { return v != none; });
+                   [](UserVertex v) { return v != none; });
   }
   sort_unique(patch.vertices);
 }
@@ -48,21 +48,21 @@ ChangeTracker::ChangeTracker(const Mesh& mesh)
       slot_(mesh.n_faces(), none),
       is_flipped_(mesh.n_faces(), false) {
   changed_.reserve(mesh.n_faces());
-  for (int face = 0; face < mesh.n_faces(); ++face) copy_face(mesh, face);
+  for (const Face face : mesh.faces()) copy_face(mesh, face);
 }
 
-void ChangeTracker::copy_face(const Mesh& mesh, int face) noexcept {
+void ChangeTracker::copy_face(const Mesh& mesh, Face face) noexcept {
   faces_[face] = mesh.save(face);
   user_face_[face] = mesh.user_face(face);
 }
 
-void ChangeTracker::note(std::span<const RegionRecord> regions, std::span<const int> flipped) noexcept {
+void ChangeTracker::note(std::span<const RegionRecord> regions, std::span<const Face> flipped) noexcept {
   forget();
-  for (const auto& region : regions) for_each_replaced(region, [&](int face) { note(face, false); });
-  for (const int face : flipped) note(face, true);
+  for (const auto& region : regions) for_each_replaced(region, [&](Face face) { note(face, false); });
+  for (const Face face : flipped) note(face, true);
 }
 
-void ChangeTracker::note(int face, bool is_flipped) noexcept {
+void ChangeTracker::note(Face face, bool is_flipped) noexcept {
   is_flipped_[face] = is_flipped;
   if (slot_[face] != none) return;
   slot_[face] = static_cast<int>(changed_.size());
@@ -70,15 +70,15 @@ void ChangeTracker::note(int face, bool is_flipped) noexcept {
 }
 
 void ChangeTracker::forget() noexcept {
-  for (const int face : changed_) slot_[face] = none;
+  for (const Face face : changed_) slot_[face] = none;
   changed_.clear();
 }
 
 void ChangeTracker::accept(const Mesh& mesh) noexcept {
-  for (const int face : changed_) {
+  for (const Face face : changed_) {
     copy_face(mesh, face);
-    for (const int side : Mesh::sides(face))  // what lies across from a neighbour has changed, too
-      if (const int across = mesh.face_across(side); across != none) copy_face(mesh, across);
+    for (const Side side : Mesh::sides(face))  // what lies across from a neighbour has changed, too
+      if (const Face across = mesh.face_across(side); across != none) copy_face(mesh, across);
   }
   forget();
 }
@@ -98,7 +98,7 @@ std::vector<ChangedPatch> ChangeTracker::patches(const Mesh& mesh,
     if (change.face != none) all[number[i]].faces.push_back(change);
   }
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    const int some = first_replaced(regions[r]);
+    const Face some = first_replaced(regions[r]);
     if (some != none) all[number[slot_[some]]].regions.push_back(static_cast<int>(r));
   }
   std::erase_if(all, [](const ChangedPatch& patch) { return patch.faces.empty(); });
@@ -115,13 +115,13 @@ std::vector<ChangedPatch> ChangeTracker::patches(const Mesh& mesh,
 std::vector<int> ChangeTracker::patch_numbers(const Mesh& mesh, std::span<const RegionRecord> regions) const {
   DisjointSets sets(static_cast<int>(changed_.size()));
   for (const auto& region : regions) {
-    const int some = first_replaced(region);
-    for_each_replaced(region, [&](int face) { sets.join(slot_[some], slot_[face]); });
+    const Face some = first_replaced(region);
+    for_each_replaced(region, [&](Face face) { sets.join(slot_[some], slot_[face]); });
   }
-  for (const int face : changed_) {
+  for (const Face face : changed_) {
     if (!is_flipped_[face]) continue;
-    for (const int side : mesh.sides(face)) {
-      const int across = mesh.face_across(side);
+    for (const Side side : mesh.sides(face)) {
+      const Face across = mesh.face_across(side);
       if (across != none && slot_[across] != none) sets.join(slot_[face], slot_[across]);
     }
   }
@@ -135,12 +135,12 @@ std::vector<int> ChangeTracker::patch_numbers(const Mesh& mesh, std::span<const 
 }
 
 // Without a number where the face is padding before and after.
-FaceChange ChangeTracker::change_of(const Mesh& mesh, int face) const {
-  const auto in_users = [&](const Triangle& t) {
-    return Triangle{mesh.user_vertex(t[0]), mesh.user_vertex(t[1]), mesh.user_vertex(t[2])};
+FaceChange ChangeTracker::change_of(const Mesh& mesh, Face face) const {
+  const auto in_users = [&](const MeshTriangle& t) {
+    return UserTriangle{mesh.user_vertex(t[0]), mesh.user_vertex(t[1]), mesh.user_vertex(t[2])};
   };
   const auto& old = faces_[face];
-  const int number = mesh.user_face(face);
+  const UserFace number = mesh.user_face(face);
   return {.face = number != none ? number : user_face_[face],
           .before = in_users(old.corners),
           .after = in_users(mesh.triangles()[face]),

@@ -19,7 +19,7 @@ class ChangeTracker {
 
   // Names the faces that may differ from the copy: those that the regions replaced and those that flips
   // rewrote. Takes no memory.
-  void note(std::span<const RegionRecord> regions, std::span<const int> flipped) noexcept;
+  void note(std::span<const RegionRecord> regions, std::span<const Face> flipped) noexcept;
 
   // What became of those of the domain, in patches by their smallest face. `regions` as noted.
   std::vector<ChangedPatch> patches(const Mesh& mesh, std::span<const RegionRecord> regions) const;
@@ -28,17 +28,17 @@ class ChangeTracker {
   void take_back(Mesh& mesh) noexcept;     // the mesh goes back to the copy, bit for bit, positions apart
 
  private:
-  void note(int face, bool is_flipped) noexcept;
+  void note(Face face, bool is_flipped) noexcept;
   void forget() noexcept;
-  void copy_face(const Mesh& mesh, int face) noexcept;
+  void copy_face(const Mesh& mesh, Face face) noexcept;
   std::vector<int> patch_numbers(const Mesh& mesh, std::span<const RegionRecord> regions) const;
-  FaceChange change_of(const Mesh& mesh, int face) const;
+  FaceChange change_of(const Mesh& mesh, Face face) const;
 
   std::vector<FaceState> faces_;
-  std::vector<int> user_face_;    // per face
-  std::vector<int> changed_;      // faces; has room for all
-  std::vector<int> slot_;         // per face: where in changed_, or none
-  std::vector<char> is_flipped_;  // per face
+  std::vector<UserFace> user_face_;  // per face
+  std::vector<Face> changed_;        // has room for all
+  std::vector<int> slot_;            // per face: where in changed_, or none
+  std::vector<char> is_flipped_;     // per face
 };
 
 }  // namespace kinemesh

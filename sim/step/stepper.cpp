@@ -10,8 +10,15 @@
 #include "core/base/stopwatch.h"
 #include "core/mesh/around.h"
 #include "core/mesh/frame.h"
+#include "core/sweep/face_minima.h"
+#include "core/sweep/moved_blocks.h"
 #include "kinemesh/error.h"
 #include "kinemesh/measure.h"
+#include "kinemesh/motion.h"
+#include "motion/following.h"
+#include "motion/interior/interior.h"
+#include "sim/step/change_tracker.h"
+#include "untangle/quality/quality_pass.h"
 
 namespace kinemesh {
 namespace {
@@ -33,7 +40,8 @@ void add_time(Defect& defect, double time) {
 template <class Describe>
 std::optional<Defect> non_finite_defect(const Mesh& mesh, std::span<const Point> next,
                                         const Describe& describe) {
-  const int vertex = find_first(mesh.n_vertices(), grain::items, [&](int v) { return !is_finite(next[v]); });
+  const Vertex vertex(
+      find_first(mesh.n_vertices(), grain::items, [&](int v) { return !is_finite(next[v]); }));
   if (vertex == none) return std::nullopt;
   Defect defect;
   defect.kind = DefectKind::NonFinitePosition;
@@ -85,9 +93,9 @@ class ChangesInPlace {
 // Marks vertices for the length of a scope.
 class Named {
  public:
-  Named(std::vector<char>& marks, const Mesh& mesh, std::span<const int> vertices) : marks_(marks) {
+  Named(std::vector<char>& marks, const Mesh& mesh, std::span<const UserVertex> vertices) : marks_(marks) {
     marks_.assign(mesh.n_vertices(), 0);
-    for (const int user : vertices) marks_[mesh.vertex_of_user(user)] = 1;
+    for (const UserVertex user : vertices) marks_[mesh.vertex_of_user(user)] = 1;
   }
   ~Named() { marks_.clear(); }
   Named(const Named&) = delete;
@@ -102,7 +110,7 @@ std::vector<Role> border_roles(const Mesh& mesh) {
   std::vector<Role> roles(mesh.n_vertices(), Role::Free);
   for (const Constraint& c : mesh.constraints())
     if (c.is_border()) roles[c.from] = roles[c.to] = Role::Known;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (const Vertex v : mesh.vertices())
     if (mesh.is_fixed(v)) roles[v] = Role::Known;
   return roles;
 }
@@ -113,7 +121,81 @@ void require_forward(double dt) {
 
 }  // namespace
 
-Stepper::Stepper(Mesh&& mesh, const StepperOptions& options, double time, int steps_done)
+class Stepper::Impl {
+ public:
+  Impl(Mesh&& mesh, const StepperOptions& options, double time, int steps_done);
+
+  // As Stepper's.
+  StepOutcome step(std::span<const Point> positions, double dt) { return step_by(positions, time_ + dt, dt); }
+  StepOutcome step(const Motion& motion, double dt) { return step_by(motion, time_ + dt, dt); }
+  StepOutcome step_to(const Motion& motion, double end_time) {
+    return step_by(motion, end_time, end_time - time_);
+  }
+  StepOutcome step_to(std::span<const Point> positions, double end_time) {
+    return step_by(positions, end_time, end_time - time_);
+  }
+  StepOutcome step_border(std::span<const UserVertex> vertices, std::span<const Point> positions, double dt) {
+    return step_border_by(vertices, positions, time_ + dt, dt);
+  }
+  StepOutcome step_border_to(std::span<const UserVertex> vertices, std::span<const Point> positions,
+                             double end_time) {
+    return step_border_by(vertices, positions, end_time, end_time - time_);
+  }
+  std::vector<Point> moved(const Motion& motion, double end_time);
+  FollowingState following_state() const { return following_ ? following_->state() : start_; }
+  void set_following_state(FollowingState state) { start_ = std::move(state); }
+  std::span<Point> positions();
+  void observe(StepObserver observer);
+  const Mesh& mesh() const { return mesh_; }
+  double time() const { return time_; }
+  int steps_done() const { return step_; }
+  const Strategy& strategy() const { return *strategy_; }
+  std::span<const Face> flipped_faces() const { return quality_->flipped_faces(); }
+
+ private:
+  template <class Move>
+  StepOutcome advance(double end_time, double dt, const Move& move);
+  StepOutcome step_by(const Motion& motion, double end_time, double dt);
+  StepOutcome step_border_by(std::span<const UserVertex> vertices, std::span<const Point> positions,
+                             double end_time, double dt);
+  Following& following(const InteriorOptions& options);
+  std::optional<Defect> move(const Motion& motion, const TimeStep& step, std::span<Point> next);
+  template <class Solve>
+  std::optional<Defect> follow(double end_time, std::span<Point> next, const Solve& solve);
+  StepOutcome step_by(std::span<const Point> positions, double end_time, double dt);
+  void repair_moved(StepOutcome& outcome);
+  std::optional<RegionsTooLarge> excess(const RepairRecord& record) const;
+  void outdate_repaired(const RepairRecord& record);
+  void improve(RepairRecord& record);
+  void outdate_improved();
+  void tell_observers(const StepRecord& record);
+  std::vector<QualityMove> moved_by_quality() const;
+  void refresh_positions();
+  void measure(StepOutcome& outcome);
+
+  Mesh mesh_;
+  std::unique_ptr<Strategy> strategy_;
+  std::unique_ptr<QualityPass> quality_;
+  RepairOptions repair_;
+  FaceMinima minima_;
+  bool knows_minima_ = false;  // of the mesh as it is
+  MovedBlocks moved_;          // by the step
+  double max_region_share_;
+  std::vector<Point> next_;  // positions after the step, then before it
+  InteriorOptions interior_;
+  std::optional<Following> following_;  // once something has been followed
+  FollowingState start_;                // of its first step
+  double interior_ms_ = 0.0;            // of the step at hand
+  bool has_followed_ = false;           // likewise
+  std::vector<char> named_;       // per vertex: by step_border, and so not quality's; empty in other steps
+  std::vector<Point> positions_;  // what positions() hands out; empty before
+  std::vector<StepObserver> observers_;
+  std::unique_ptr<ChangeTracker> tracker_;  // with observers or a limit only
+  double time_;
+  int step_;
+};
+
+Stepper::Impl::Impl(Mesh&& mesh, const StepperOptions& options, double time, int steps_done)
     : mesh_(std::move(mesh)),
       strategy_(make_strategy(options.strategy)),
       quality_(make_quality(options.quality, mesh_, {options.angle, options.freedom})),
@@ -129,7 +211,7 @@ Stepper::Stepper(Mesh&& mesh, const StepperOptions& options, double time, int st
 // `move` writes the positions at end_time and names what made one of them not finite. On an exception nothing
 // is known of the faces.
 template <class Move>
-StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
+StepOutcome Stepper::Impl::advance(double end_time, double dt, const Move& move) {
   const Stopwatch clock;
   StepOutcome outcome;
   outcome.record.step = step_ + 1;
@@ -163,13 +245,11 @@ StepOutcome Stepper::advance(double end_time, double dt, const Move& move) {
   return outcome;
 }
 
-void Stepper::repair_moved(StepOutcome& outcome) {
+void Stepper::Impl::repair_moved(StepOutcome& outcome) {
   PositionsInPlace moved(mesh_, next_);
-  RepairOptions options = repair_;
-  options.before = next_;
-  options.minima = &minima_;
-  options.moved = &moved_;
-  RepairOutcome repaired = strategy_->repair(mesh_, options);
+  Move move(repair_, next_);
+  move.know(&minima_, &moved_);
+  RepairOutcome repaired = strategy_->repair(mesh_, move);
   outcome.record.repair = std::move(repaired.record);
   outcome.defect = std::move(repaired.defect);
   if (outcome.defect) return;
@@ -186,7 +266,7 @@ void Stepper::repair_moved(StepOutcome& outcome) {
 }
 
 // next_ holds the positions before the step. What an observer throws goes through the two guards above.
-void Stepper::tell_observers(const StepRecord& record) {
+void Stepper::Impl::tell_observers(const StepRecord& record) {
   tracker_->note(record.repair.regions, quality_->flipped_faces());
   if (observers_.empty()) return;
   const auto patches = tracker_->patches(mesh_, record.repair.regions);
@@ -202,38 +282,39 @@ void Stepper::tell_observers(const StepRecord& record) {
   for (const auto& observer : observers_) observer(changes);
 }
 
-std::vector<MovedVertex> Stepper::moved_by_quality() const {
+std::vector<QualityMove> Stepper::Impl::moved_by_quality() const {
   const auto moved = quality_->moved_vertices();
-  std::vector<MovedVertex> by_user(moved.begin(), moved.end());
-  for (auto& [vertex, before] : by_user) vertex = mesh_.user_vertex(vertex);
-  std::ranges::sort(by_user, {}, &MovedVertex::vertex);
+  std::vector<QualityMove> by_user;
+  by_user.reserve(moved.size());
+  for (const auto& [vertex, before] : moved) by_user.push_back({mesh_.user_vertex(vertex), before});
+  std::ranges::sort(by_user, {}, &QualityMove::vertex);
   return by_user;
 }
 
-std::optional<RegionsTooLarge> Stepper::excess(const RepairRecord& record) const {
+std::optional<RegionsTooLarge> Stepper::Impl::excess(const RepairRecord& record) const {
   const double share = static_cast<double>(record.region_faces()) / mesh_.n_faces();
   if (!(share > max_region_share_)) return std::nullopt;
   return RegionsTooLarge{share, max_region_share_};
 }
 
 // What detection has measured holds but for what was changed since.
-void Stepper::outdate_repaired(const RepairRecord& record) {
+void Stepper::Impl::outdate_repaired(const RepairRecord& record) {
   if (strategy_->moves_vertices()) return minima_.reset(mesh_.n_faces());
   for (const RegionRecord& region : record.regions)
     minima_.outdate({region.faces.data(), region.faces.size()});
 }
 
-void Stepper::outdate_improved() {
+void Stepper::Impl::outdate_improved() {
   minima_.outdate(quality_->flipped_faces());
   for (const auto& [vertex, before] : quality_->moved_vertices()) {
-    for_each_side_from(mesh_, vertex, [&](int side) {
-      const int face = Mesh::face_of(side);
+    for_each_side_from(mesh_, vertex, [&](Side side) {
+      const Face face = Mesh::face_of(side);
       minima_.outdate({&face, 1});
     });
   }
 }
 
-void Stepper::measure(StepOutcome& outcome) {
+void Stepper::Impl::measure(StepOutcome& outcome) {
   const Stopwatch clock;
   StepRecord& record = outcome.record;
   if (outcome)
@@ -251,7 +332,7 @@ void Stepper::measure(StepOutcome& outcome) {
 
 // Cannot fail, and is undone by observers only. The initial mesh may have any shape, so the first step looks
 // at all of it; next_ holds the positions before the step.
-void Stepper::improve(RepairRecord& record) {
+void Stepper::Impl::improve(RepairRecord& record) {
   const Stopwatch clock;
   const auto before = step_ == 0 ? std::span<const Point>() : std::span<const Point>(next_);
   const QualityCounts done = quality_->improve(
@@ -261,67 +342,47 @@ void Stepper::improve(RepairRecord& record) {
   record.quality_ms = clock.milliseconds();
 }
 
-void Stepper::observe(StepObserver observer) {
+void Stepper::Impl::observe(StepObserver observer) {
   if (!observer) throw InputError("an observer that can be called expected");
   if (!tracker_) tracker_ = std::make_unique<ChangeTracker>(mesh_);
   observers_.push_back(std::move(observer));
 }
 
-std::span<Point> Stepper::positions() {
+std::span<Point> Stepper::Impl::positions() {
   if (positions_.empty()) positions_ = mesh_.user_positions();
   return positions_;
 }
 
-StepOutcome Stepper::repair(double dt) {
-  return step(positions(), dt);
+void Stepper::Impl::refresh_positions() {
+  for (const UserVertex u : Numbers<UserVertex>(static_cast<int>(positions_.size())))
+    positions_[u] = mesh_.position(mesh_.vertex_of_user(u));
 }
 
-void Stepper::refresh_positions() {
-  for (std::size_t u = 0; u < positions_.size(); ++u)
-    positions_[u] = mesh_.position(mesh_.vertex_of_user(static_cast<int>(u)));
-}
-
-StepOutcome Stepper::step(std::span<const Point> positions, double dt) {
-  return step_by(positions, time_ + dt, dt);
-}
-
-StepOutcome Stepper::step_to(std::span<const Point> positions, double end_time) {
-  return step_by(positions, end_time, end_time - time_);
-}
-
-StepOutcome Stepper::step_by(std::span<const Point> positions, double end_time, double dt) {
+StepOutcome Stepper::Impl::step_by(std::span<const Point> positions, double end_time, double dt) {
   require_forward(dt);
   if (static_cast<int>(positions.size()) != mesh_.n_user_vertices())
     throw InputError(std::to_string(positions.size()) + " positions, " +
                      std::to_string(mesh_.n_user_vertices()) + " expected");
   return advance(end_time, dt, [&](std::span<Point> next) {
     std::ranges::copy(mesh_.positions(), next.begin());
-    for (int v = 0; v < mesh_.n_vertices(); ++v)
-      if (const int user = mesh_.user_vertex(v); user != none) next[v] = positions[user];
-    return non_finite_defect(mesh_, next,
-                             [&](int) { return "in the positions given for time " + exact_text(end_time); });
+    for (const Vertex v : mesh_.vertices())
+      if (const UserVertex user = mesh_.user_vertex(v); user != none) next[v] = positions[user];
+    return non_finite_defect(
+        mesh_, next, [&](Vertex) { return "in the positions given for time " + exact_text(end_time); });
   });
 }
 
-StepOutcome Stepper::step(const Motion& motion, double dt) {
-  return step_by(motion, time_ + dt, dt);
-}
-
-StepOutcome Stepper::step_to(const Motion& motion, double end_time) {
-  return step_by(motion, end_time, end_time - time_);
-}
-
-StepOutcome Stepper::step_by(const Motion& motion, double end_time, double dt) {
+StepOutcome Stepper::Impl::step_by(const Motion& motion, double end_time, double dt) {
   require_forward(dt);
   const TimeStep step{time_, end_time, dt, static_cast<std::uint64_t>(step_)};
   return advance(end_time, dt, [&](std::span<Point> next) { return move(motion, step, next); });
 }
 
-std::optional<Defect> Stepper::move(const Motion& motion, const TimeStep& step, std::span<Point> next) {
+std::optional<Defect> Stepper::Impl::move(const Motion& motion, const TimeStep& step, std::span<Point> next) {
   const std::span<const Point> now = mesh_.positions();
   motion.advance(now, step, next);
   auto defect =
-      non_finite_defect(mesh_, next, [&](int v) { return motion.describe_non_finite(v, now, step); });
+      non_finite_defect(mesh_, next, [&](Vertex v) { return motion.describe_non_finite(v, now, step); });
   if (defect || motion.roles().empty()) return defect;
   return follow(step.t1, next,
                 [&] { return following(motion.interior()).follow(mesh_, motion, step, next); });
@@ -329,7 +390,7 @@ std::optional<Defect> Stepper::move(const Motion& motion, const TimeStep& step, 
 
 // solve() puts the interior where it follows the border to; it may have to go too far for numbers to hold.
 template <class Solve>
-std::optional<Defect> Stepper::follow(double end_time, std::span<Point> next, const Solve& solve) {
+std::optional<Defect> Stepper::Impl::follow(double end_time, std::span<Point> next, const Solve& solve) {
   const Stopwatch clock;
   const InteriorSolution solution = solve();
   interior_ms_ = clock.milliseconds();
@@ -340,31 +401,22 @@ std::optional<Defect> Stepper::follow(double end_time, std::span<Point> next, co
                      exact_text(solution.residual));
   has_followed_ = true;
   return non_finite_defect(mesh_, next,
-                           [&](int) { return "following the border to time " + exact_text(end_time); });
+                           [&](Vertex) { return "following the border to time " + exact_text(end_time); });
 }
 
-Following& Stepper::following(const InteriorOptions& options) {
+Following& Stepper::Impl::following(const InteriorOptions& options) {
   if (!following_) following_.emplace(mesh_, options, std::move(start_));
   return *following_;
 }
 
-std::vector<Point> Stepper::moved(const Motion& motion, double end_time) {
+std::vector<Point> Stepper::Impl::moved(const Motion& motion, double end_time) {
   std::vector<Point> next(mesh_.positions().begin(), mesh_.positions().end());
   (void)move(motion, {time_, end_time, end_time - time_, static_cast<std::uint64_t>(step_)}, next);
   return next;
 }
 
-StepOutcome Stepper::step_border(std::span<const int> vertices, std::span<const Point> positions, double dt) {
-  return step_border_by(vertices, positions, time_ + dt, dt);
-}
-
-StepOutcome Stepper::step_border_to(std::span<const int> vertices, std::span<const Point> positions,
-                                    double end_time) {
-  return step_border_by(vertices, positions, end_time, end_time - time_);
-}
-
-StepOutcome Stepper::step_border_by(std::span<const int> vertices, std::span<const Point> positions,
-                                    double end_time, double dt) {
+StepOutcome Stepper::Impl::step_border_by(std::span<const UserVertex> vertices,
+                                          std::span<const Point> positions, double end_time, double dt) {
   require_forward(dt);
   if (interior_.follow == Follow::None) throw InputError("step_border: an interior that follows expected");
   if (vertices.size() != positions.size())
@@ -372,7 +424,7 @@ StepOutcome Stepper::step_border_by(std::span<const int> vertices, std::span<con
                      " vertices, as many expected");
   std::vector<Role> roles = border_roles(mesh_);
   std::vector<char> is_given(mesh_.n_user_vertices(), 0);
-  for (const int user : vertices) {
+  for (const UserVertex user : vertices) {
     if (user < 0 || user >= mesh_.n_user_vertices())
       throw InputError("vertex " + std::to_string(user) + ", expected a number from 0 and below " +
                        std::to_string(mesh_.n_user_vertices()));
@@ -384,10 +436,95 @@ StepOutcome Stepper::step_border_by(std::span<const int> vertices, std::span<con
     std::ranges::copy(mesh_.positions(), next.begin());
     for (std::size_t i = 0; i < vertices.size(); ++i) next[mesh_.vertex_of_user(vertices[i])] = positions[i];
     auto defect = non_finite_defect(
-        mesh_, next, [&](int) { return "in the positions given for time " + exact_text(end_time); });
+        mesh_, next, [&](Vertex) { return "in the positions given for time " + exact_text(end_time); });
     if (defect) return defect;
     return follow(end_time, next, [&] { return following(interior_).follow(mesh_, roles, dt, next); });
   });
+}
+
+// --- the whole ---
+
+Stepper::Stepper(Mesh&& mesh, const StepperOptions& options, double time, int steps_done)
+    : impl_(std::make_unique<Impl>(std::move(mesh), options, time, steps_done)) {}
+Stepper::~Stepper() = default;
+Stepper::Stepper(Stepper&&) noexcept = default;
+Stepper& Stepper::operator=(Stepper&&) noexcept = default;
+
+StepOutcome Stepper::step(std::span<const Point> positions, double dt) {
+  return impl_->step(positions, dt);
+}
+
+StepOutcome Stepper::step(const Motion& motion, double dt) {
+  return impl_->step(motion, dt);
+}
+
+StepOutcome Stepper::step_to(const Motion& motion, double end_time) {
+  return impl_->step_to(motion, end_time);
+}
+
+StepOutcome Stepper::step_to(std::span<const Point> positions, double end_time) {
+  return impl_->step_to(positions, end_time);
+}
+
+StepOutcome Stepper::step_border(std::span<const UserVertex> vertices, std::span<const Point> positions,
+                                 double dt) {
+  return impl_->step_border(vertices, positions, dt);
+}
+
+StepOutcome Stepper::step_border_to(std::span<const UserVertex> vertices, std::span<const Point> positions,
+                                    double end_time) {
+  return impl_->step_border_to(vertices, positions, end_time);
+}
+
+std::vector<Point> Stepper::moved(const Motion& motion, double end_time) {
+  return impl_->moved(motion, end_time);
+}
+
+FollowingState Stepper::following_state() const {
+  return impl_->following_state();
+}
+
+void Stepper::set_following_state(FollowingState state) {
+  impl_->set_following_state(std::move(state));
+}
+
+std::span<Point> Stepper::positions() {
+  return impl_->positions();
+}
+
+void Stepper::observe(StepObserver observer) {
+  impl_->observe(std::move(observer));
+}
+
+const Mesh& Stepper::mesh() const {
+  return impl_->mesh();
+}
+
+double Stepper::time() const {
+  return impl_->time();
+}
+
+int Stepper::steps_done() const {
+  return impl_->steps_done();
+}
+
+const Strategy& Stepper::strategy() const {
+  return impl_->strategy();
+}
+
+std::span<const Face> Stepper::flipped_faces() const {
+  return impl_->flipped_faces();
+}
+
+StepOutcome Stepper::repair(double dt) {
+  return impl_->step(impl_->positions(), dt);
+}
+
+std::string StepOutcome::message() const {
+  if (defect) return defect->message();
+  if (!too_large) return {};
+  return "regions of " + exact_text(too_large->share) + " of all faces, at most " +
+         exact_text(too_large->limit) + " expected (max_region_share)";
 }
 
 }  // namespace kinemesh

@@ -2,39 +2,9 @@
 #include <kinemesh.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#define CHECK(condition)                                                                     \
-  do {                                                                                       \
-    if (!(condition)) {                                                                      \
-      fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, kinemesh_error()); \
-      exit(1);                                                                               \
-    }                                                                                        \
-  } while (0)
-
-/* A triangle 4 5 6 inside a square; the lower half has another label. */
-static const double points[] = {0, 0, 3, 0, 3, 3, 0, 3, 1, 1, 2, 1, 1.5, 2};
-static const int32_t triangles[] = {4, 5, 6, 0, 1, 5, 0, 5, 4, 1, 2, 5, 2, 6, 5, 2, 3, 6, 3, 0, 4, 3, 4, 6};
-enum { n_vertices = 7, n_faces = 8 };
-
-static kinemesh_mesh* square(void) {
-  kinemesh_mesh* mesh = NULL;
-  CHECK(kinemesh_mesh_create(n_vertices, points, n_faces, triangles, NULL, &mesh) == KINEMESH_OK);
-  return mesh;
-}
-
-static kinemesh_stepper* stepper_on(kinemesh_mesh* mesh, const kinemesh_options* options) {
-  kinemesh_stepper* stepper = NULL;
-  CHECK(kinemesh_stepper_create(mesh, options, &stepper) == KINEMESH_OK);
-  kinemesh_mesh_destroy(mesh); /* the stepper has its own */
-  return stepper;
-}
-
-static double area(const double* xy, const int32_t* t) {
-  const double *a = xy + 2 * t[0], *b = xy + 2 * t[1], *c = xy + 2 * t[2];
-  return ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
-}
+#include "square.h"
 
 static void check_upright(const kinemesh_stepper* stepper) {
   double xy[2 * n_vertices], total = 0;
@@ -58,15 +28,19 @@ static int watch(const kinemesh_changes* changes, void* user) {
   observed* seen = user;
   int32_t p, i;
   ++seen->calls;
+  CHECK(changes->size == sizeof *changes && !changes->vertex_map && !changes->face_map);
+  CHECK(changes->n_vertices_before == n_vertices && changes->n_vertices_after == n_vertices);
+  CHECK(changes->n_faces_before == n_faces && changes->n_faces_after == n_faces);
   for (p = 0; p < changes->n_patches && seen->answer == 0; ++p) {
-    const kinemesh_patch* patch = &changes->patches[p];
-    for (i = 0; i < patch->n_faces; ++i) {
-      int32_t* face = seen->faces + 3 * patch->faces[i];
-      CHECK(memcmp(face, patch->before + 3 * i, sizeof(int32_t) * 3) == 0);
-      memcpy(face, patch->after + 3 * i, sizeof(int32_t) * 3);
-      CHECK(area(changes->xy_before, patch->before + 3 * i) > 0);
-      CHECK(area(changes->xy_after, patch->after + 3 * i) > 0);
-      CHECK(patch->labels_before[i] == 0 && patch->labels_after[i] == 0);
+    const kinemesh_faces *before = &changes->patches[p]->before, *after = &changes->patches[p]->after;
+    const kinemesh_patch* patch = changes->patches[p];
+    for (i = 0; i < before->n; ++i) {
+      CHECK(memcmp(seen->faces + 3 * before->faces[i], before->triangles + 3 * i, sizeof(int32_t) * 3) == 0);
+      CHECK(area(changes->xy_before, before->triangles + 3 * i) > 0 && before->labels[i] == 0);
+    }
+    for (i = 0; i < after->n; ++i) {
+      memcpy(seen->faces + 3 * after->faces[i], after->triangles + 3 * i, sizeof(int32_t) * 3);
+      CHECK(area(changes->xy_after, after->triangles + 3 * i) > 0 && after->labels[i] == 0);
     }
     CHECK(patch->n_vertices > 3 && patch->vertices[0] >= 0);
     ++seen->patches;
@@ -86,8 +60,8 @@ static void takes_steps_and_tells_of_them(void) {
 
   xy[13] = 0.5; /* vertex 6 through the edge 4 5 */
   CHECK(kinemesh_stepper_step(stepper, xy, 0.25, &record) == KINEMESH_OK);
-  CHECK(record.step == 1 && record.time == 0.25 && record.dt == 0.25 && record.n_faces == n_faces);
-  CHECK(record.inverted == 1 && record.regions == 1 && record.replaced == 6 && record.flat == 0);
+  CHECK(record.step == 1 && record.time == 0.25 && record.dt == 0.25 && record.faces == n_faces);
+  CHECK(record.inverted == 1 && record.regions == 1 && record.replaced == 6 && record.degenerate == 0);
   CHECK(record.min_area > 0 && record.min_angle_deg > 0);
   check_upright(stepper);
 
@@ -202,7 +176,7 @@ static void moves_bodies_exactly_and_the_interior_follows(void) {
     CHECK(kinemesh_stepper_advance(stepper, 0.1, &record) == KINEMESH_OK);
     CHECK(record.step == n && record.time == t && kinemesh_stepper_time(stepper) == t);
     CHECK(record.min_angle_deg > 5 && record.min_area > 0);
-    CHECK(record.moves >= moved && (record.moves > 0) == (moved > 0));
+    CHECK(record.quality_moves >= moved && (record.quality_moves > 0) == (moved > 0));
     moves += moved;
     CHECK(kinemesh_stepper_advance(halved, 0.05, NULL) == KINEMESH_OK);
     CHECK(kinemesh_stepper_advance(halved, 0.05, NULL) == KINEMESH_OK);
@@ -306,6 +280,58 @@ static void leaves_everything_as_it_was_when_bodies_cannot_move(void) {
   kinemesh_stepper_destroy(stepper);
 }
 
+static void check_culprits(int32_t kind, int32_t culprit_vertices, int32_t culprit_faces) {
+  const kinemesh_defect* culprits = kinemesh_culprits();
+  CHECK(culprits->size == sizeof *culprits && culprits->kind == kind);
+  CHECK(culprits->n_vertices == culprit_vertices && culprits->n_faces == culprit_faces);
+}
+
+/* A bow tie: no faces on these vertices are a mesh. */
+static void tells_not_valid_from_impossible(void) {
+  double crossed[2 * n_vertices];
+  kinemesh_mesh* mesh = NULL;
+  memcpy(crossed, points, sizeof points);
+  crossed[2] = 3, crossed[3] = 3.5; /* 0-1 across 2-3 */
+  crossed[4] = 3, crossed[5] = 0;
+  crossed[6] = 0, crossed[7] = 2.75;
+  CHECK(kinemesh_mesh_create(n_vertices, crossed, n_faces, triangles, NULL, &mesh) == KINEMESH_OK);
+  CHECK(kinemesh_mesh_validate(mesh) == KINEMESH_NO_VALID_MESH);
+  CHECK(kinemesh_culprits()->kind == KINEMESH_CROSSING_EDGES && kinemesh_culprits()->n_edges == 2);
+  CHECK(strstr(kinemesh_error(), "crosses"));
+  kinemesh_mesh_destroy(mesh);
+}
+
+static void refuses_steps_that_replace_too_much(void) {
+  kinemesh_options options = kinemesh_default_options();
+  kinemesh_step record;
+  kinemesh_stepper* stepper = stepper_on(square(), NULL);
+  double xy[2 * n_vertices], now[2 * n_vertices], share;
+  memcpy(xy, points, sizeof points);
+  xy[13] = 0.5;
+  CHECK(kinemesh_stepper_step(stepper, xy, 1, &record) == KINEMESH_OK);
+  share = record.region_share;
+  CHECK(share > 0 && share < 1 && record.region_faces >= record.replaced);
+  kinemesh_stepper_destroy(stepper);
+
+  options.max_region_share = share; /* is still allowed */
+  stepper = stepper_on(square(), &options);
+  CHECK(kinemesh_stepper_step(stepper, xy, 1, NULL) == KINEMESH_OK);
+  kinemesh_stepper_destroy(stepper);
+
+  options.max_region_share = 0.99 * share;
+  stepper = stepper_on(square(), &options);
+  CHECK(kinemesh_stepper_step(stepper, xy, 1, NULL) == KINEMESH_REGIONS_TOO_LARGE);
+  CHECK(strstr(kinemesh_error(), "max_region_share"));
+  check_culprits(KINEMESH_NO_DEFECT, 0, 0);
+  CHECK(kinemesh_stepper_get(stepper, now, NULL, NULL) == KINEMESH_OK);
+  CHECK(memcmp(now, points, sizeof points) == 0 && kinemesh_stepper_time(stepper) == 0);
+  check_upright(stepper);
+  kinemesh_stepper_destroy(stepper);
+
+  options.max_region_share = HUGE_VAL; /* none, as 0 is */
+  kinemesh_stepper_destroy(stepper_on(square(), &options));
+}
+
 static void leaves_everything_as_it_was_when_it_fails(void) {
   kinemesh_stepper* stepper = stepper_on(square(), NULL);
   double xy[2 * n_vertices], *own = kinemesh_stepper_positions(stepper);
@@ -316,10 +342,14 @@ static void leaves_everything_as_it_was_when_it_fails(void) {
   xy[12] = xy[10], xy[13] = xy[11]; /* 6 onto 5 */
   CHECK(kinemesh_stepper_step(stepper, xy, 0.25, NULL) == KINEMESH_NO_VALID_MESH);
   CHECK(strstr(kinemesh_error(), "5") && strstr(kinemesh_error(), "6"));
+  check_culprits(KINEMESH_COINCIDENT_VERTICES, 2, 0);
+  CHECK(kinemesh_culprits()->vertices[0] + kinemesh_culprits()->vertices[1] == 5 + 6);
+  CHECK(kinemesh_culprits()->where[0] == 2 && kinemesh_culprits()->where[1] == 1);
   own[12] = own[10], own[13] = own[11];
   CHECK(kinemesh_stepper_repair(stepper, 0.25, NULL) == KINEMESH_NO_VALID_MESH);
   CHECK(memcmp(own, points, sizeof points) == 0);
   CHECK(kinemesh_stepper_step(stepper, xy, -1, NULL) == KINEMESH_BAD_INPUT);
+  check_culprits(KINEMESH_NO_DEFECT, 0, 0);
   CHECK(kinemesh_stepper_step(NULL, xy, 1, NULL) == KINEMESH_BAD_INPUT);
   CHECK(strcmp(kinemesh_error(), "stepper is NULL, an address expected") == 0);
 
@@ -418,10 +448,29 @@ static void refuses_what_is_no_mesh(void) {
   CHECK(kinemesh_mesh_create(n_vertices, tangled, n_faces, triangles, NULL, &mesh) == KINEMESH_OK);
   CHECK(kinemesh_stepper_create(mesh, NULL, &stepper) == KINEMESH_BAD_INPUT);
   CHECK(strstr(kinemesh_error(), "kinemesh_mesh_untangle"));
+  CHECK(kinemesh_mesh_validate(mesh) == KINEMESH_NOT_VALID);
+  CHECK(strstr(kinemesh_error(), kinemesh_culprits()->kind == KINEMESH_FLAT_FACE ? "no area" : "inverted"));
+  check_culprits(KINEMESH_INVERTED_FACE, 3, 1);
+  CHECK(area(tangled, triangles + 3 * kinemesh_culprits()->faces[0]) < 0);
   CHECK(kinemesh_mesh_untangle(mesh, NULL) == KINEMESH_OK);
+  CHECK(kinemesh_mesh_validate(mesh) == KINEMESH_OK);
   stepper = stepper_on(mesh, NULL);
   check_upright(stepper);
   kinemesh_stepper_destroy(stepper);
+}
+
+/* The one marker: 0-1 and 4-5, and 5-6 added; a file may turn edges round and sort them. */
+static void check_line(const kinemesh_mesh* mesh) {
+  static const int32_t line[] = {0, 1, 4, 5, 5, 6};
+  int32_t edges[6], i, k, found = 0;
+  CHECK(kinemesh_mesh_n_markers(mesh) == 1 && strcmp(kinemesh_mesh_marker_name(mesh, 0), "line") == 0);
+  CHECK(kinemesh_mesh_marker_n_edges(mesh, 0) == 3);
+  CHECK(kinemesh_mesh_get_marker(mesh, 0, edges) == KINEMESH_OK);
+  for (i = 0; i < 6; i += 2)
+    for (k = 0; k < 6; k += 2)
+      found += (edges[i] == line[k] && edges[i + 1] == line[k + 1]) ||
+               (edges[i] == line[k + 1] && edges[i + 1] == line[k]);
+  CHECK(found == 3);
 }
 
 static void keeps_markers_and_labels(const char* folder) {
@@ -434,6 +483,8 @@ static void keeps_markers_and_labels(const char* folder) {
   CHECK(kinemesh_mesh_create(n_vertices, points, n_faces, triangles, labels, &mesh) == KINEMESH_OK);
   CHECK(kinemesh_mesh_add_marker(mesh, "line", 2, line) == KINEMESH_OK);
   CHECK(kinemesh_mesh_add_marker(mesh, "line", 1, more) == KINEMESH_OK);
+  CHECK(kinemesh_mesh_name_label(mesh, 1, "lower") == KINEMESH_OK);
+  check_line(mesh);
   options.quality = "delaunay";
   stepper = stepper_on(mesh, &options);
   CHECK(kinemesh_stepper_mesh(stepper, &copy) == KINEMESH_OK);
@@ -442,8 +493,12 @@ static void keeps_markers_and_labels(const char* folder) {
   kinemesh_mesh_destroy(copy);
   CHECK(kinemesh_mesh_read(file, &copy) == KINEMESH_OK);
   CHECK(kinemesh_mesh_n_faces(copy) == n_faces && kinemesh_mesh_n_vertices(copy) == n_vertices);
-  kinemesh_mesh_get(copy, NULL, NULL, back);
+  CHECK(kinemesh_mesh_get(copy, NULL, NULL, back) == KINEMESH_OK);
   CHECK(memcmp(back, labels, sizeof back) == 0);
+  check_line(copy);
+  CHECK(strcmp(kinemesh_mesh_label_name(copy, 1), "lower") == 0 && !*kinemesh_mesh_label_name(copy, 2));
+  sprintf(file, "%.4000s/drawing.svg", folder);
+  CHECK(kinemesh_mesh_write(copy, file) == KINEMESH_OK);
   CHECK(kinemesh_mesh_write(copy, "mesh.unheard-of") == KINEMESH_BAD_INPUT);
   kinemesh_mesh_destroy(copy);
   kinemesh_stepper_destroy(stepper);
@@ -459,6 +514,8 @@ int main(int argc, char** argv) {
   refuses_scenarios_with_the_line_and_the_key();
   leaves_everything_as_it_was_when_bodies_cannot_move();
   leaves_everything_as_it_was_when_it_fails();
+  tells_not_valid_from_impossible();
+  refuses_steps_that_replace_too_much();
   tells_stuck_from_impossible();
   refuses_more_than_numbers_go();
   refuses_what_is_no_mesh();

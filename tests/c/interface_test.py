@@ -3,100 +3,22 @@ where it is."""
 
 import ctypes
 import math
-import os
 import random
 import unittest
 from array import array
 from concurrent.futures import ThreadPoolExecutor
-from ctypes import POINTER, c_double, c_int, c_int32, c_void_p
+from ctypes import c_double, c_int32, c_void_p
+
+from interface import (BAD_INPUT, LIBRARY, NO_VALID_MESH, OBSERVER, STUCK, VETOED, Interface, Step, address,
+                       grid)
 
 try:
     import numpy
 except ImportError:
     numpy = None
 
-LIBRARY = ctypes.CDLL(os.environ["KINEMESH_LIBRARY"])
-LIBRARY.kinemesh_error.restype = ctypes.c_char_p
-LIBRARY.kinemesh_stepper_positions.restype = POINTER(c_double)
-OK, NO_VALID_MESH, BAD_INPUT, _, VETOED, _, _, STUCK = range(8)
 
-
-class Patch(ctypes.Structure):
-    _fields_ = [("n_faces", c_int32), ("faces", POINTER(c_int32)), ("before", POINTER(c_int32)),
-                ("after", POINTER(c_int32)), ("labels_before", POINTER(c_int32)),
-                ("labels_after", POINTER(c_int32)), ("n_vertices", c_int32), ("vertices", POINTER(c_int32))]
-
-
-class Changes(ctypes.Structure):
-    _fields_ = [("step", c_int32), ("time", c_double), ("dt", c_double), ("n_patches", c_int32),
-                ("patches", POINTER(Patch)), ("xy_before", POINTER(c_double)),
-                ("xy_after", POINTER(c_double)), ("n_moved", c_int32), ("moved", POINTER(c_int32)),
-                ("xy_moved", POINTER(c_double))]
-
-
-class Step(ctypes.Structure):
-    _fields_ = [("step", c_int32), ("time", c_double), ("dt", c_double),
-                *((name, c_int32)
-                  for name in ("n_faces", "inverted", "flat", "regions", "replaced", "flips", "moves")),
-                ("min_angle_deg", c_double), ("min_area", c_double)]
-
-
-OBSERVER = ctypes.CFUNCTYPE(c_int, POINTER(Changes), c_void_p)
-
-
-def address(buffer, kind):
-    """Of an array, a numpy array or any other writable buffer: nothing is copied."""
-    return (kind * (len(memoryview(buffer).cast("B")) // ctypes.sizeof(kind))).from_buffer(buffer)
-
-
-def grid(n):
-    points = array("d", (c / n for j in range(n + 1) for i in range(n + 1) for c in (i, j)))
-    triangles = array("i")
-    for j in range(n):
-        for i in range(n):
-            a = j * (n + 1) + i
-            b, c, d = a + 1, a + n + 2, a + n + 1
-            triangles.extend((a, b, c, a, c, d))
-    return points, triangles
-
-
-class Interface(unittest.TestCase):
-    def call(self, function, *arguments):
-        status = getattr(LIBRARY, "kinemesh_" + function)(*arguments)
-        self.assertEqual(status, OK, LIBRARY.kinemesh_error())
-
-    def stepper(self, points, triangles):
-        mesh, stepper = c_void_p(), c_void_p()
-        self.call("mesh_create", len(points) // 2, address(points, c_double), len(triangles) // 3,
-                  address(triangles, c_int32), None, ctypes.byref(mesh))
-        self.call("stepper_create", mesh, None, ctypes.byref(stepper))
-        LIBRARY.kinemesh_mesh_destroy(mesh)
-        self.addCleanup(LIBRARY.kinemesh_stepper_destroy, stepper)
-        return stepper
-
-    def faces(self, stepper):
-        triangles = array("i", bytes(12 * LIBRARY.kinemesh_stepper_n_faces(stepper)))
-        self.call("stepper_get", stepper, None, address(triangles, c_int32), None)
-        return triangles
-
-    def area(self, points, triangles):
-        total = 0.0
-        for f in range(0, len(triangles), 3):
-            (ax, ay), (bx, by), (cx, cy) = (points[2 * v:2 * v + 2] for v in triangles[f:f + 3])
-            area = ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
-            self.assertGreater(area, 0)
-            total += area
-        return total
-
-    def shaken(self, points, n, source):
-        moved = array("d", points)
-        for j in range(1, n):
-            for i in range(1, n):
-                v = 2 * (j * (n + 1) + i)
-                for k in (v, v + 1):
-                    moved[k] = min(max(moved[k] + source.uniform(-1, 1) / n, 0.01), 0.99)
-        return moved
-
+class Steps(Interface):
     def test_steps_and_observers(self):
         n, source = 10, random.Random(3)
         points, triangles = grid(n)
@@ -105,12 +27,14 @@ class Interface(unittest.TestCase):
 
         def observe(changes, _):
             for p in range(changes.contents.n_patches):
-                patch = changes.contents.patches[p]
-                for i in range(patch.n_faces):
-                    face = patch.faces[i]
-                    if list(told[3 * face:3 * face + 3]) != patch.before[3 * i:3 * i + 3]:
-                        wrong.append(face)
-                    told[3 * face:3 * face + 3] = array("i", patch.after[3 * i:3 * i + 3])
+                patch = changes.contents.patches[p].contents
+                before, after = patch.before, patch.after
+                wrong.extend(before.faces[i] for i in range(before.n)
+                             if list(told[3 * before.faces[i]:3 * before.faces[i] + 3])
+                             != before.triangles[3 * i:3 * i + 3])
+                for i in range(after.n):
+                    face = after.faces[i]
+                    told[3 * face:3 * face + 3] = array("i", after.triangles[3 * i:3 * i + 3])
             return 0
 
         observer = OBSERVER(observe)  # has to live as long as the stepper
@@ -119,7 +43,7 @@ class Interface(unittest.TestCase):
         for step in range(1, 9):
             points = self.shaken(points, n, source)
             self.call("stepper_step", stepper, address(points, c_double), c_double(0.5), ctypes.byref(record))
-            self.assertEqual((record.step, record.time, record.n_faces), (step, step / 2, 2 * n * n))
+            self.assertEqual((record.step, record.time, record.faces), (step, step / 2, 2 * n * n))
             replaced += record.replaced
             self.assertEqual(wrong, [])
             self.assertEqual(self.faces(stepper), told)
@@ -146,10 +70,7 @@ class Interface(unittest.TestCase):
         """A triangle turned inside out, its sides to be kept: no edge may flip, but there is a mesh."""
         xy = array("d", (0, 0, 3, 0, 3, 3, 0, 3, 1, 1, 2, 1, 1.5, 0.5))
         triangles = array("i", (4, 5, 6, 0, 1, 5, 0, 5, 4, 1, 2, 5, 2, 6, 5, 2, 3, 6, 3, 0, 4, 3, 4, 6))
-        mesh, lines = c_void_p(), array("i", (4, 5, 5, 6, 6, 4))
-        self.call("mesh_create", 7, address(xy, c_double), 8, address(triangles, c_int32), None,
-                  ctypes.byref(mesh))
-        self.addCleanup(LIBRARY.kinemesh_mesh_destroy, mesh)
+        mesh, lines = self.mesh(xy, triangles), array("i", (4, 5, 5, 6, 6, 4))
         self.call("mesh_add_marker", mesh, b"line", 3, address(lines, c_int32))
         self.assertEqual(LIBRARY.kinemesh_mesh_untangle(mesh, b"flips"), STUCK)
         self.call("mesh_untangle", mesh, b"global")
@@ -169,9 +90,7 @@ class Interface(unittest.TestCase):
         """A square whose right side pushes in and pulls back; the lower and the upper one slide."""
         n = 8
         points, triangles = grid(n)
-        mesh, stepper = c_void_p(), c_void_p()
-        self.call("mesh_create", len(points) // 2, address(points, c_double), len(triangles) // 3,
-                  address(triangles, c_int32), None, ctypes.byref(mesh))
+        mesh, stepper = self.mesh(points, triangles), c_void_p()
         sides = {b"bottom": range(n + 1), b"right": range(n, (n + 1) ** 2, n + 1),
                  b"top": range(n * (n + 1), (n + 1) ** 2)}
         for name, side in sides.items():
@@ -186,7 +105,6 @@ class Interface(unittest.TestCase):
             top = "slide"
             """
         self.call("stepper_create_scenario", mesh, scenario, c_double(0.25), ctypes.byref(stepper))
-        LIBRARY.kinemesh_mesh_destroy(mesh)
         self.addCleanup(LIBRARY.kinemesh_stepper_destroy, stepper)
         return stepper
 

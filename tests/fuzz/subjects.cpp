@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "kinemesh/build.h"
 #include "kinemesh/mesh_io.h"
 #include "kinemesh/run.h"
 #include "kinemesh/shapes.h"
@@ -13,12 +14,12 @@
 #include "motion/fields/sampled_grid.h"
 #include "sim/draw/step_of_run.h"
 #include "sim/report/table.h"
-#include "sim/run/binary.h"
 #include "sim/run/checkpoint.h"
 #include "sim/run/failed_step.h"
 #include "sim/run/patches.h"
 #include "tests/fuzz/reader_check.h"
 #include "tests/fuzz/vtu_sample.h"
+#include "tests/sim/run/section_file.h"
 
 namespace kinemesh {
 namespace {
@@ -161,10 +162,38 @@ std::string read_scenario(const fs::path& file, const std::string& text,
   return to_toml(parse_scenario(written, file)) == written ? "" : "written and read again it is another one";
 }
 
-// A sealed file with its payload changed and its length and checksum right again; now and then just broken.
-std::string resealed(const std::string& sealed, const binary::Kind& kind, Dice& dice) {
-  if (dice.one_in(16)) return mutated_bytes(sealed, dice);
-  return binary::seal(kind, mutated_bytes(std::string(binary::unseal(kind, sealed)), dice));
+// Now and then another section, another version, one too few or too many.
+void change_sections(std::vector<test::RawSection>& sections, Dice& dice) {
+  const auto place = sections.begin() + static_cast<std::ptrdiff_t>(dice.below(sections.size()));
+  switch (dice.below(5)) {
+    case 0:
+      place->name = mutated_bytes(place->name, dice);
+      break;
+    case 1:
+      place->version = static_cast<std::uint32_t>(dice.next());
+      break;
+    case 2:
+      sections.erase(place);
+      break;
+    case 3:
+      sections.push_back(test::RawSection(*place));
+      break;
+    default:
+      place->contents = dice.one_of(sections).contents;
+  }
+}
+
+// A file of sections with some of them changed and all lengths and checksums right again; now and then just
+// broken.
+std::string mutated_sections(const std::string& sample, Dice& dice) {
+  if (dice.one_in(16)) return mutated_bytes(sample, dice);
+  auto file = test::taken_apart(sample);
+  if (dice.one_in(8)) change_sections(file.sections, dice);
+  do {
+    std::string& contents = file.sections[dice.below(file.sections.size())].contents;
+    contents = mutated_bytes(contents, dice);
+  } while (dice.one_in(3));
+  return test::joined(file);
 }
 
 Checkpoint sample_checkpoint() {
@@ -172,8 +201,9 @@ Checkpoint sample_checkpoint() {
   Checkpoint checkpoint;
   checkpoint.program = "1";
   checkpoint.scenario = "a = 1\n";
-  checkpoint.origin = origin_of(mesh);
-  checkpoint.mesh = state_of(mesh);
+  checkpoint.base = base_of(mesh);
+  checkpoint.initial = state_of(mesh, checkpoint.base.order);
+  checkpoint.mesh = checkpoint.initial;
   checkpoint.time = 0.5;
   checkpoint.step = 5;
   checkpoint.series = {.replaced = std::vector<std::uint8_t>(mesh.n_faces(), 1),
@@ -186,8 +216,7 @@ Checkpoint sample_checkpoint() {
 
 Subject checkpoint_subject(const fs::path& folder) {
   const std::string sample = format_checkpoint(sample_checkpoint());
-  const binary::Kind kind{"KMCHKPT\n", 5, "checkpoint"};
-  return {"checkpoint", [=](Dice& dice) { return resealed(sample, kind, dice); },
+  return {"checkpoint", [=](Dice& dice) { return mutated_sections(sample, dice); },
           [=](const std::string& content) {
             write(folder / "checkpoint.bin", content);
             (void)last_checkpoint(folder, "a = 1\n");
@@ -199,8 +228,8 @@ Subject checkpoint_subject(const fs::path& folder) {
 std::string sample_failed_step() {
   const Mesh mesh = build_mesh(sample_mesh(), {.frame = 0.25, .fixed = {}});
   FailedStep step;
-  step.origin = origin_of(mesh);
-  step.mesh = state_of(mesh);
+  step.base = base_of(mesh);
+  step.mesh = state_of(mesh, step.base.order);
   step.moved = mesh.user_positions();
   step.moved[5] += Point(0.5, 0.1);
   step.end_time = 0.1;
@@ -208,15 +237,14 @@ std::string sample_failed_step() {
   step.options.freedom.held.assign(mesh.n_vertices(), 0);
   step.options.freedom.tangents[3] = {1.0, 0.0};
   step.options.freedom.curves.emplace_back(
-      std::vector<Point>{mesh.position(0), mesh.position(1), mesh.position(2)});
+      std::vector<Point>{mesh.position(Vertex(0)), mesh.position(Vertex(1)), mesh.position(Vertex(2))});
   step.options.freedom.curve_of[1] = 0;
   return format_failed_step(step);
 }
 
 Subject failed_step_subject() {
   const std::string sample = sample_failed_step();
-  const binary::Kind kind{"KMFSTEP\n", 5, "failed step"};
-  return {"failed_step", [=](Dice& dice) { return resealed(sample, kind, dice); },
+  return {"failed_step", [=](Dice& dice) { return mutated_sections(sample, dice); },
           [](const std::string& content) {
             (void)replay(parse_failed_step(content));
             return std::string();

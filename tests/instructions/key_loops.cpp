@@ -46,9 +46,9 @@ void require(bool condition, const char* what) {
       upright += orientation(x[t[0]], x[t[1]], x[t[2]]) == Orientation::CounterClockwise;
   });
   count("in_circle", [&] {
-    for (int f = 1; f < mesh.n_faces(); ++f) {
+    for (Face f{1}; f < mesh.n_faces(); ++f) {
       const auto& t = mesh.triangles()[f];
-      inside += in_circle(x[t[0]], x[t[1]], x[t[2]], x[mesh.triangles()[f - 1][0]]) == Side::Inside;
+      inside += in_circle(x[t[0]], x[t[1]], x[t[2]], x[mesh.triangles()[f - 1][0]]) == InCircle::Inside;
     }
   });
   require(upright == mesh.n_faces() && inside < mesh.n_faces(), "a valid mesh has tangles");

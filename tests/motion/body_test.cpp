@@ -1,4 +1,4 @@
-#include "kinemesh/body.h"
+#include "motion/body.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,6 +19,7 @@
 #include "motion/fields/rigid.h"
 #include "motion/fields/vortical.h"
 #include "motion/following.h"
+#include "motion/restriction.h"
 #include "tests/motion/grid.h"
 
 namespace kinemesh {
@@ -98,7 +99,7 @@ TEST(Body, IsExactToRoundingWhereverItIsAndHoweverManyStepsItTook) {
     const Points x = run(motion, mesh, 16.0, 10000);
     const long double t = 16.0L;
     const long double angle = 1.25L * t + 0.75L * std::sin(2.5L * t), way = 0.5L * std::sin(1.5L * t) / 5.0L;
-    for (const int v : motion.bodies()[0].vertices()) {
+    for (const Vertex v : motion.bodies()[0].vertices()) {
       const Point X = mesh.position(v);
       const long double rx = static_cast<long double>(X.x) - center.x,
                         ry = static_cast<long double>(X.y) - center.y;
@@ -116,7 +117,7 @@ TEST(Body, HasTheSameBitsAtCommonTimesForHalfTheStep) {
   const Mesh mesh = mesh_at({0.0, 0.0});
   const Motion motion(mesh, {}, {}, Integrator::Rk4, {hole_with({turn({0.5, 0.5}, 0.7)})});
   const Points whole = run(motion, mesh, 1.0, 16), half = run(motion, mesh, 1.0, 32);
-  for (const int v : motion.bodies()[0].vertices()) EXPECT_EQ(whole[v], half[v]);
+  for (const Vertex v : motion.bodies()[0].vertices()) EXPECT_EQ(whole[v], half[v]);
 }
 
 TEST(Body, StartsBitByBitWhereItIs) {
@@ -124,7 +125,7 @@ TEST(Body, StartsBitByBitWhereItIs) {
   const Motion motion(mesh, {}, {}, Integrator::Rk4, {hole_with({turn({1e6, 0.3}, 0.7)})});
   Points x1(mesh.n_vertices());
   motion.advance(mesh.positions(), {0.0, 0.0, 0.0, 0}, x1);
-  for (const int v : motion.bodies()[0].vertices()) EXPECT_EQ(x1[v], mesh.position(v));
+  for (const Vertex v : motion.bodies()[0].vertices()) EXPECT_EQ(x1[v], mesh.position(v));
 }
 
 // Neither other motions nor noise change a bit of it.
@@ -139,8 +140,8 @@ TEST(Body, NobodyElseMovesIt) {
                       {std::make_shared<Translation>(Point(1.0, 0.0)), parse_restriction("marker:hole")}},
                      moving, Integrator::Rk4, body);
   const Points a = run(alone, mesh, 0.5, 5), b = run(among, mesh, 0.5, 5);
-  for (const int v : alone.bodies()[0].vertices()) EXPECT_EQ(a[v], b[v]);
-  const int inside = grid_vertex(mesh, n, 1, 1);
+  for (const Vertex v : alone.bodies()[0].vertices()) EXPECT_EQ(a[v], b[v]);
+  const Vertex inside = grid_vertex(mesh, n, 1, 1);
   EXPECT_NE(a[inside], b[inside]);
 }
 
@@ -150,7 +151,7 @@ TEST(Body, FieldsWithoutAPoseAreIntegratedAtItsVertices) {
                       {hole_with({std::make_shared<Shear>(Point(0.0, 0.0), 2.0)})});
   EXPECT_FALSE(motion.bodies()[0].is_exact());
   const Points x = run(motion, mesh, 1.0, 10);
-  for (const int v : motion.bodies()[0].vertices()) {
+  for (const Vertex v : motion.bodies()[0].vertices()) {
     EXPECT_NEAR(x[v].x, mesh.position(v).x + 2.0 * mesh.position(v).y, 1e-13);
     EXPECT_NEAR(x[v].y, mesh.position(v).y, 1e-13);
   }
@@ -282,7 +283,7 @@ TEST(Motion, ALayerDoesNotBendABorderThatAnotherMotionNames) {
                        {std::make_shared<Translation>(Point(-0.02, 0.0)),
                         parse_restriction("marker:left", std::array{0.0, 2.0})}});
   const Points x = run(motion, mesh, 1.0, 1);
-  for (const int v : {grid_vertex(mesh, n, 3, 3), grid_vertex(mesh, n, 5, 4)})
+  for (const Vertex v : {grid_vertex(mesh, n, 3, 3), grid_vertex(mesh, n, 5, 4)})
     EXPECT_EQ(x[v], mesh.position(v) + Point(0.01, 0.0));
 }
 
@@ -302,7 +303,7 @@ TEST(Following, TakesTheInteriorAlongAndLeavesTheBorderToItsOwners) {
                       {hole_with({std::make_shared<Translation>(Point(0.05, 0.0))})}, InteriorOptions{});
   Following following(mesh, motion.interior());
   const Points x = follow(motion, mesh, 1.0, following);
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (mesh.user_vertex(v) == none || mesh.is_isolated(v)) continue;
     const double way = x[v].x - mesh.position(v).x;
     if (motion.body_of(v) != none)
@@ -332,7 +333,7 @@ TEST(Following, WhatAMotionDoesInsideIsNotDoneTwice) {
     const Motion motion(mesh, {{shear}}, moving, Integrator::Rk4, bodies, InteriorOptions{});
     Following following(mesh, motion.interior());
     const Points x = follow(motion, mesh, 1.0, following);
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Vertex v : mesh.vertices()) {
       if (mesh.user_vertex(v) == none || mesh.is_isolated(v)) continue;
       const Point& X = mesh.position(v);
       EXPECT_NEAR(glm::distance(x[v], Point(X.x + 0.5 * X.y, X.y)), 0.0, 1e-12);

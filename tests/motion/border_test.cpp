@@ -71,7 +71,7 @@ TEST(Freedom, KeepsTheTangentialPart) {
   const Mesh mesh = build_mesh(grid(n));
   const Freedom freedom(mesh, {Slide, {}});
   const auto allowed = [&](int i, int j) {
-    const int v = grid_vertex(mesh, n, i, j);
+    const Vertex v = grid_vertex(mesh, n, i, j);
     return freedom.allowed(v, mesh.position(v), {3.0, 4.0});
   };
   EXPECT_EQ(allowed(1, 0), Point(3.0, 0.0));
@@ -86,7 +86,7 @@ TEST(Freedom, SlidesAlongSlantedSidesWithinRounding) {
       build_mesh(mapped(grid(n), [&](Point p) { return Point(c * p.x - s * p.y, s * p.x + c * p.y); }),
                  {.frame = 0.1, .fixed = {}});
   const Freedom freedom(mesh, {Slide, {}});
-  const int v = grid_vertex(mesh, n, 1, 0);
+  const Vertex v = grid_vertex(mesh, n, 1, 0);
   const Point along = freedom.allowed(v, mesh.position(v), {1.0, 0.0});
   EXPECT_NEAR(along.x, c * c, 1e-14);
   EXPECT_NEAR(along.y, c * s, 1e-14);
@@ -101,7 +101,7 @@ TEST(Freedom, SlidesAlongABentBorder) {
   ASSERT_EQ(freedom.lines().size(), 1u);
   const SlideLine& line = freedom.lines().front();
   EXPECT_FALSE(line.is_straight());
-  const int v = grid_vertex(mesh, n, 1, 0);
+  const Vertex v = grid_vertex(mesh, n, 1, 0);
   ASSERT_EQ(freedom.of(v), Slide);
   Point x = mesh.position(v);
   for (int step = 0; step < 1000; ++step) {
@@ -116,7 +116,7 @@ TEST(Freedom, CurvedLinesDoNotDependOnHowTheMeshIsStored) {
   const MeshData ring = make_annulus(300);
   const Mesh mesh = build_mesh(ring, {.frame = 0.1, .fixed = {}}),
              other = test::disordered(ring, {.frame = 0.7, .fixed = {}}, 1);
-  ASSERT_NE(mesh.user_vertex(50), other.user_vertex(50));
+  ASSERT_NE(mesh.user_vertex(Vertex(50)), other.user_vertex(Vertex(50)));
   const Freedom freedom(mesh, {Slide, {}}), same(other, {Slide, {}});
   ASSERT_EQ(freedom.lines().size(), 2u);
   for (std::size_t i = 0; i < 2; ++i)
@@ -180,7 +180,7 @@ MeshData with_middle_line(MeshData data) {
 
 TEST(Freedom, InnerLinesMoveUnlessNamed) {
   const Mesh mesh = build_mesh(with_middle_line(grid(n)));
-  const int v = grid_vertex(mesh, n, 2, 2);
+  const Vertex v = grid_vertex(mesh, n, 2, 2);
   ASSERT_TRUE(mesh.is_constrained(v));
   EXPECT_EQ(Freedom(mesh, {}).of(v), Moving);
   EXPECT_EQ(Freedom(mesh, {Moving, {{"line", Fixed}}}).of(v), Fixed);
@@ -201,7 +201,7 @@ TEST(Freedom, NeverMovesFixedVerticesNorTheFrame) {
   const Freedom freedom(mesh, {Moving, {}});
   EXPECT_EQ(freedom.of(grid_vertex(mesh, n, 2, 2)), Fixed);
   ASSERT_EQ(mesh.frame().size(), 4u);
-  for (const int corner : mesh.frame()) EXPECT_EQ(freedom.of(corner), Fixed);
+  for (const Vertex corner : mesh.frame()) EXPECT_EQ(freedom.of(corner), Fixed);
   EXPECT_EQ(freedom.of(grid_vertex(mesh, n, 0, 0)), Moving);
 }
 

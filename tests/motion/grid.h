@@ -12,8 +12,8 @@ namespace kinemesh::test {
 MeshData grid(int n);
 
 // The vertex of the mesh that the user's grid(n) calls (i, j).
-inline int grid_vertex(const Mesh& mesh, int n, int i, int j) {
-  return mesh.vertex_of_user(j * (n + 1) + i);
+inline Vertex grid_vertex(const Mesh& mesh, int n, int i, int j) {
+  return mesh.vertex_of_user(UserVertex(j * (n + 1) + i));
 }
 
 // Every point mapped.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "motion/fields/parameters.h"
+#include "kinemesh/parameters.h"
 
 namespace kinemesh {
 namespace {

@@ -16,6 +16,7 @@
 #include "motion/fields/oscillation.h"
 #include "motion/fields/rigid.h"
 #include "motion/fields/vortical.h"
+#include "motion/restriction.h"
 #include "tests/motion/grid.h"
 
 namespace kinemesh {
@@ -56,13 +57,13 @@ TEST(Motion, TurnsAMeshRigidlyAndInvertsNothing) {
   const Motion motion(mesh, {{std::make_shared<Rotation>(Point(0.5, 0.5), 1.0), {}}}, all_moving);
   const Points x = moved(motion, start(mesh), 0.0, 0.01, 200);
   const double c = std::cos(2.0), s = std::sin(2.0);
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     const Point r = mesh.positions()[v] - 0.5;
     const Point turned =
         mesh.user_vertex(v) == none ? mesh.positions()[v] : 0.5 + Point(c * r.x - s * r.y, s * r.x + c * r.y);
     EXPECT_LT(glm::distance(x[v], turned), 1e-9);
   }
-  for (int face = 0; face < mesh.n_faces(); ++face) {
+  for (const Face face : mesh.faces()) {
     if (mesh.is_padding(face)) continue;
     const auto& [a, b, d] = mesh.triangles()[face];
     EXPECT_EQ(orientation(x[a], x[b], x[d]), Orientation::CounterClockwise);
@@ -75,7 +76,7 @@ TEST(Motion, KeepsFixedBorders) {
   const Points x = moved(motion, start(mesh), 0.0, 1.0);
   for (int j = 0; j <= 6; ++j)
     for (int i = 0; i <= 6; ++i) {
-      const int v = grid_vertex(mesh, 6, i, j);
+      const Vertex v = grid_vertex(mesh, 6, i, j);
       const bool on_border = i % 6 == 0 || j % 6 == 0;
       EXPECT_TRUE(same_bits(x[v], mesh.positions()[v]) == on_border);
       if (!on_border) {
@@ -106,8 +107,8 @@ TEST(Motion, SlidingVerticesKeepTheirSide) {
 TEST(Motion, AMarkerThatATermNamesMoves) {
   const Mesh mesh = build_mesh(grid(4), {.frame = 1.0, .fixed = {}});
   const Restriction top = parse_restriction("marker:top");
-  const int v = grid_vertex(mesh, 4, 2, 4), inside = grid_vertex(mesh, 4, 2, 3),
-            corner = grid_vertex(mesh, 4, 0, 4);
+  const Vertex v = grid_vertex(mesh, 4, 2, 4), inside = grid_vertex(mesh, 4, 2, 3),
+               corner = grid_vertex(mesh, 4, 0, 4);
   const Points x = moved(Motion(mesh, {{shift(0.0, 1.0), top}}), start(mesh), 0.0, 0.125);
   EXPECT_EQ(x[v], Point(0.5, 1.125));
   EXPECT_EQ(x[inside], Point(0.5, 0.75));
@@ -125,7 +126,7 @@ TEST(Motion, AddsTermsByTheirWeights) {
                       all_moving);
   const auto w = weights(mesh, parse_restriction("disc:[0.5,0.5,0.2]", std::array{0.1, 0.3}));
   const Points x = moved(motion, start(mesh), 0.0, 0.25);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (const Vertex v : mesh.vertices())
     if (mesh.user_vertex(v) != none) {
       EXPECT_LT(glm::distance(x[v], mesh.positions()[v] + Point(0.25, 0.5 * w[v])), 1e-15);
     }
@@ -139,14 +140,14 @@ TEST(Motion, IntegratesTheSumOfVelocitiesTogether) {
   const Points sum = moved(Motion(mesh, {{half_u, {}}, {half_v, {}}}), start(mesh), 0.0, 0.1, 5);
   const Points whole =
       moved(Motion(mesh, {{std::make_shared<Swirl>(VortexBox{}, 8.0), {}}}), start(mesh), 0.0, 0.1, 5);
-  for (int v = 0; v < mesh.n_vertices(); ++v) EXPECT_LT(glm::distance(sum[v], whole[v]), 1e-14);
+  for (const Vertex v : mesh.vertices()) EXPECT_LT(glm::distance(sum[v], whole[v]), 1e-14);
 }
 
 TEST(Motion, UsesItsIntegrator) {
   const Mesh mesh = build_mesh(grid(4), {.frame = 2.0, .fixed = {}});
   const Motion motion(mesh, {{std::make_shared<Rotation>(Point(0.0), 1.0), {}}}, all_moving,
                       Integrator::Euler);
-  const int v = grid_vertex(mesh, 4, 4, 0);
+  const Vertex v = grid_vertex(mesh, 4, 4, 0);
   EXPECT_EQ(moved(motion, start(mesh), 0.0, 0.5)[v], Point(1.0, 0.5));
 }
 
@@ -156,7 +157,7 @@ TEST(Motion, DisplacementsAreExactWhateverTheSteps) {
   const Motion motion(mesh, {{std::make_shared<Pitch>(pitch), {}}}, all_moving);
   for (const int steps : {1, 7, 1000}) {
     const Points x = moved(motion, start(mesh), 0.0, 1.3 / steps, steps);
-    for (int v = 0; v < mesh.n_vertices(); ++v)
+    for (const Vertex v : mesh.vertices())
       if (mesh.user_vertex(v) != none) {
         const Point& initial = mesh.positions()[v];
         EXPECT_LT(glm::distance(x[v], initial + pitch.displacement(initial, 1.3)), 1e-13);
@@ -174,7 +175,7 @@ TEST(Motion, DisplacementsStartFromTheInitialPositionsAndFade) {
                       all_moving);
   const auto w = weights(mesh, parse_restriction("disc:[0,0,0.4]", std::array{0.1, 1.1}));
   const Points x = moved(motion, start(mesh), 0.0, 0.1, 4);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (const Vertex v : mesh.vertices())
     if (mesh.user_vertex(v) != none) {
       const Point& initial = mesh.positions()[v];
       EXPECT_LT(glm::distance(x[v], initial + Point(w[v] * initial.x * 0.4, 0.2)), 1e-14);
@@ -192,7 +193,7 @@ TEST(Motion, WeightZeroKeepsEveryBit) {
                              {std::make_shared<Pitch>(Point(0.0), 1.0, 1.0), corner},
                              {std::make_shared<Jitter>(0.1, 1), corner}});
   const Points x = moved(motion, start(mesh), 0.0, 0.1);
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     const bool acts = mesh.positions()[v] == Point(-0.25, -0.25);
     EXPECT_NE(same_bits(x[v], mesh.positions()[v]), acts) << v;
   }
@@ -207,7 +208,7 @@ TEST(Motion, NoiseStaysInsideAndOffTheBorder) {
   for (int step = 0; step < 50; ++step) {
     Points next(x.size());
     motion.advance(x, step * 0.1, 0.1, step, next);
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Vertex v : mesh.vertices()) {
       const auto gap = [](const Point& p) { return std::min({p.x, 1 - p.x, p.y, 1 - p.y}); };
       EXPECT_LE(glm::distance(x[v], next[v]), 0.5 * gap(x[v]) + 1e-15);
       EXPECT_GE(gap(next[v]), 0.0);
@@ -225,7 +226,7 @@ TEST(Motion, JitterIsMeasuredInSpacings) {
   EXPECT_NEAR(motion.spacing(), h, 1e-15);
   const Points x = moved(motion, start(mesh), 0.0, 1.0);
   double largest = 0.0;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (const Vertex v : mesh.vertices())
     largest = std::max(largest, std::abs(x[v].x - mesh.positions()[v].x));
   EXPECT_LE(largest, 0.2 * h * (1 + 1e-12));
   EXPECT_GT(largest, 0.199 * h);
@@ -238,7 +239,7 @@ TEST(Motion, NoiseBelongsToTheUsersVertexNumber) {
   const Points x = moved(Motion(mesh, {{jitter, {}}}), start(mesh), 0.0, 1.0);
   for (int j = 1; j < n; ++j)
     for (int i = 1; i < n; ++i) {
-      const int v = grid_vertex(mesh, n, i, j);
+      const Vertex v = grid_vertex(mesh, n, i, j);
       const Point kick = jitter->kick(j * (n + 1) + i, 0, 1.0, mean_spacing(mesh));
       EXPECT_TRUE(same_bits(x[v], mesh.positions()[v] + kick));
     }
@@ -292,7 +293,7 @@ TEST(Motion, NamesTheFieldThatMadeAVertexNonFinite) {
                       {{shift(1.0, 0.0), {}}, {std::make_shared<ExpressionVelocity>("1/(x-0.5)", "0"), {}}},
                       {}, Integrator::Euler);
   const Points x = start(mesh), next = moved(motion, x, 0.25, 0.1);
-  const int v = grid_vertex(mesh, 4, 2, 1);
+  const Vertex v = grid_vertex(mesh, 4, 2, 1);
   EXPECT_FALSE(std::isfinite(next[v].x));
   EXPECT_EQ(motion.describe_non_finite(v, x, {0.25, 0.35, 0.1, 0}),
             "field \"expression\" gives (inf, 0) at (0.5, 0.25), time 0.25");
@@ -301,7 +302,7 @@ TEST(Motion, NamesTheFieldThatMadeAVertexNonFinite) {
 TEST(Motion, NamesADisplacementThatBecomesNonFiniteWithinTheStep) {
   const Mesh mesh = build_mesh(grid(4));
   const Motion motion(mesh, {{std::make_shared<ExpressionDisplacement>("0", "sqrt(1-t)"), {}}});
-  const int v = grid_vertex(mesh, 4, 1, 1);
+  const Vertex v = grid_vertex(mesh, 4, 1, 1);
   EXPECT_TRUE(std::isnan(moved(motion, start(mesh), 0.95, 0.1)[v].y));
   EXPECT_THAT(motion.describe_non_finite(v, start(mesh), {0.95, 1.05, 0.1, 0}),
               testing::AllOf(HasSubstr("field \"displacement\" gives (0, "),

@@ -119,7 +119,7 @@ TEST(Weights, OfADiscFadeWithTheDistanceToIt) {
   const Mesh mesh = build_mesh(grid(16));
   const auto sharp = weights(mesh, parse_restriction("disc:[0.5,0.5,0.25]"));
   const auto soft = weights(mesh, parse_restriction("disc:[0.5,0.5,0.25]", std::array{0.05, 0.2}));
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     const double r = glm::distance(mesh.positions()[v], Point(0.5)), outside = r - 0.25;
     EXPECT_EQ(sharp[v], r <= 0.25 ? 1.0 : 0.0);
     EXPECT_NEAR(soft[v],

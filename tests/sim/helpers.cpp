@@ -57,11 +57,11 @@ Snapshot snapshot(const Mesh& mesh) {
   Snapshot s;
   s.positions.assign(mesh.positions().begin(), mesh.positions().end());
   s.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
-  for (int f = 0; f < mesh.n_faces(); ++f) s.labels.push_back(mesh.label(f));
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) s.labels.push_back(mesh.label(f));
+  for (const Face f : mesh.faces()) {
     s.faces.push_back(mesh.user_face(f));
-    for (const int side : Mesh::sides(f))
-      for (const int link : {mesh.opposite(side), mesh.constraint_of(side)}) s.sides.push_back(link);
+    for (const Side side : Mesh::sides(f))
+      s.sides.insert(s.sides.end(), {mesh.opposite(side), mesh.constraint_of(side)});
   }
   return s;
 }

@@ -1,6 +1,7 @@
 // Meshes, folders and tables the tests of sim/ share.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -22,13 +23,17 @@ MeshData grid_with_hole(int n, int from, int to);
 // Everything about a mesh that a step may change, for bitwise comparison.
 struct Snapshot {
   std::vector<Point> positions;
-  std::vector<Triangle> triangles;
+  std::vector<MeshTriangle> triangles;
   std::vector<int> labels;
-  std::vector<int> sides;  // opposite and constraint of each
-  std::vector<int> faces;  // user's number of each
+  std::vector<int> sides;       // opposite and constraint of each
+  std::vector<UserFace> faces;  // user's number of each
   bool operator==(const Snapshot&) const = default;
 };
 Snapshot snapshot(const Mesh& mesh);
+
+inline Triangle numbers_of(const std::array<UserVertex, 3>& t) {
+  return {t[0], t[1], t[2]};
+}
 
 // Removed with all its files at the end.
 class TemporaryFolder {

@@ -38,7 +38,7 @@ std::string miscounted(const Mesh& moved, const RepairRecord& record) {
 std::string check_in_motion(const Mesh& moved, std::span<const Point> before, MotionTotals& totals) {
   Mesh mesh = moved, other = moved;
   KineticUntangling kinetic;
-  const auto outcome = kinetic.repair(mesh, {.allow_escaped = true, .before = before});
+  const auto outcome = kinetic.repair(mesh, Move({.allow_escaped = true}, before));
   totals.events += kinetic.counts().events;
   totals.flips += kinetic.counts().flips;
   totals.stuck += kinetic.counts().stuck;

@@ -90,12 +90,12 @@ class Shadows {
       shadows_.push_back(shadow(places_[a], places_[b], places_[c]));
   }
 
-  const Grid& place(int vertex) const { return places_[vertex]; }
-  const Shadow& operator[](int face) const { return shadows_[face]; }
+  const Grid& place(Vertex vertex) const { return places_[vertex]; }
+  const Shadow& operator[](Face face) const { return shadows_[face]; }
 
-  std::vector<int> with_sign(int sign) const {
-    std::vector<int> faces;
-    for (int f = 0; f < mesh_.n_faces(); ++f) {
+  std::vector<Face> with_sign(int sign) const {
+    std::vector<Face> faces;
+    for (const Face f : mesh_.faces()) {
       if (shadows_[f].sign == sign) faces.push_back(f);
     }
     return faces;
@@ -114,25 +114,25 @@ class Shadows {
 };
 
 // Classes of `faces` under `joined(side)` for the edges between two of them.
-std::vector<std::vector<int>> classes(const Mesh& mesh, const std::vector<int>& faces,
-                                      const std::function<bool(int)>& joined) {
-  std::vector<int> parent(mesh.n_faces(), none);
-  for (const int f : faces) parent[f] = f;
-  const auto root = [&](int f) {
+std::vector<std::vector<Face>> classes(const Mesh& mesh, const std::vector<Face>& faces,
+                                       const std::function<bool(Side)>& joined) {
+  std::vector<Face> parent(mesh.n_faces());
+  for (const Face f : faces) parent[f] = f;
+  const auto root = [&](Face f) {
     while (parent[f] != f) f = parent[f];
     return f;
   };
-  for (const int f : faces) {
-    for (const int h : mesh.sides(f)) {
-      const int g = mesh.face_across(h);
+  for (const Face f : faces) {
+    for (const Side h : Mesh::sides(f)) {
+      const Face g = mesh.face_across(h);
       if (g == none || parent[g] == none || g < f || !joined(h)) continue;
       const auto [low, high] = std::minmax({root(f), root(g)});
       parent[high] = low;
     }
   }
-  std::map<int, std::vector<int>> by_root;
-  for (const int f : faces) by_root[root(f)].push_back(f);
-  std::vector<std::vector<int>> result;
+  std::map<Face, std::vector<Face>> by_root;
+  for (const Face f : faces) by_root[root(f)].push_back(f);
+  std::vector<std::vector<Face>> result;
   for (auto& [first, members] : by_root) result.push_back(std::move(members));
   return result;
 }
@@ -149,41 +149,41 @@ bool properly_cross(const Grid& a, const Grid& b, const Grid& c, const Grid& d) 
 
 }  // namespace
 
-std::vector<int> inverted(const Mesh& mesh) {
+std::vector<Face> inverted(const Mesh& mesh) {
   return Shadows(mesh).with_sign(-1);
 }
 
-std::vector<int> flat(const Mesh& mesh) {
+std::vector<Face> flat(const Mesh& mesh) {
   return Shadows(mesh).with_sign(0);
 }
 
-std::vector<std::vector<int>> inverted_components(const Mesh& mesh) {
-  return classes(mesh, inverted(mesh), [](int) { return true; });
+std::vector<std::vector<Face>> inverted_components(const Mesh& mesh) {
+  return classes(mesh, inverted(mesh), [](Side) { return true; });
 }
 
-std::vector<std::vector<int>> conflict_pieces(const Mesh& mesh) {
+std::vector<std::vector<Face>> conflict_pieces(const Mesh& mesh) {
   const Shadows shadows(mesh);
   const auto seeds = shadows.with_sign(-1);
-  const auto is_conflicting = [&](int f) {
+  const auto is_conflicting = [&](Face f) {
     return std::any_of(seeds.begin(), seeds.end(),
-                       [&](int s) { return s == f || interiors_overlap(shadows[f], shadows[s]); });
+                       [&](Face s) { return s == f || interiors_overlap(shadows[f], shadows[s]); });
   };
-  std::vector<int> conflict_set;
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  std::vector<Face> conflict_set;
+  for (const Face f : mesh.faces()) {
     if (is_conflicting(f)) conflict_set.push_back(f);
   }
-  return classes(mesh, conflict_set, [&](int h) {
-    const int left = mesh.face_of(h), right = mesh.face_across(h);
+  return classes(mesh, conflict_set, [&](Side h) {
+    const Face left = Mesh::face_of(h), right = mesh.face_across(h);
     if (shadows[left].sign < 0 || shadows[right].sign < 0) return true;
     const Grid &a = shadows.place(mesh.from(h)), &b = shadows.place(mesh.to(h));
-    return std::any_of(seeds.begin(), seeds.end(), [&](int s) { return meets_interior(a, b, shadows[s]); });
+    return std::any_of(seeds.begin(), seeds.end(), [&](Face s) { return meets_interior(a, b, shadows[s]); });
   });
 }
 
-std::pair<int, int> coincident_vertices(const Mesh& mesh) {
+std::pair<Vertex, Vertex> coincident_vertices(const Mesh& mesh) {
   const Shadows shadows(mesh);
-  std::map<Grid, int> seen;
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  std::map<Grid, Vertex> seen;
+  for (const Vertex v : mesh.vertices()) {
     if (mesh.is_isolated(v)) continue;
     const auto [first, fresh] = seen.try_emplace(shadows.place(v), v);
     if (!fresh) return {first->second, v};
@@ -196,7 +196,7 @@ bool constraints_touch(const Mesh& mesh) {
   const auto constraints = mesh.constraints();
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const Grid &a = shadows.place(constraints[i].from), &b = shadows.place(constraints[i].to);
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Vertex v : mesh.vertices()) {
       if (v == constraints[i].from || v == constraints[i].to || mesh.is_isolated(v)) continue;
       if (on_segment(shadows.place(v), a, b)) return true;
     }

@@ -25,15 +25,15 @@ RepairOutcome repair(Mesh& mesh, const char* strategy) {
 std::vector<bool> replaced_faces(const Mesh& mesh, const RepairRecord& record) {
   std::vector<bool> replaced(mesh.n_faces(), false);
   for (const auto& region : record.regions) {
-    for (const int f : region.faces) replaced[f] = true;
+    for (const Face f : region.faces) replaced[f] = true;
   }
   return replaced;
 }
 
 std::set<int> escaped_vertices(const Mesh& mesh) {
   std::set<int> escaped;
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    for (const int v : mesh.triangles()[f]) {
+  for (const Face f : mesh.faces()) {
+    for (const Vertex v : mesh.triangles()[f]) {
       if (!mesh.is_constrained(v) && mesh.home_label(v) != mesh.label(f)) escaped.insert(v);
     }
   }
@@ -51,7 +51,7 @@ std::string numbering_changed(const Mesh& before, const Mesh& after) {
   if (!escaped_vertices(before).empty() || !escaped_vertices(after).empty()) return "";
   const auto labels_by_number = [](const Mesh& mesh) {
     std::vector<std::pair<int, int>> numbers;
-    for (int f = 0; f < mesh.n_faces(); ++f) {
+    for (const Face f : mesh.faces()) {
       if (!mesh.is_padding(f)) numbers.emplace_back(mesh.user_face(f), mesh.label(f));
     }
     std::sort(numbers.begin(), numbers.end());
@@ -64,7 +64,7 @@ std::string numbering_changed(const Mesh& before, const Mesh& after) {
 std::string not_disjoint(const RepairRecord& record) {
   std::set<int> all;
   for (const auto& region : record.regions) {
-    for (const int f : region.faces) {
+    for (const Face f : region.faces) {
       if (!all.insert(f).second) return "face " + to_string(f) + " is in two regions";
     }
   }
@@ -80,21 +80,22 @@ std::string first_of(std::initializer_list<std::string> sentences) {
 
 // Brute-force counterparts of a region's numbers.
 struct RegionCounts {
-  int seed = none, inverted = 0, components = 0, border_edges = 0, crease_edges = 0;
+  UserFace seed;
+  int inverted = 0, components = 0, border_edges = 0, crease_edges = 0;
 };
 
-RegionCounts count(const Mesh& mesh, const std::vector<int>& faces) {
+RegionCounts count(const Mesh& mesh, const std::vector<Face>& faces) {
   RegionCounts counts;
   const std::set<int> region(faces.begin(), faces.end());
   const auto inverted_faces = oracle::inverted(mesh);
   const std::set<int> inverted(inverted_faces.begin(), inverted_faces.end());
-  for (const int f : faces) {
-    const int user = mesh.user_face(f);
+  for (const Face f : faces) {
+    const UserFace user = mesh.user_face(f);
     if (inverted.contains(f) && user != none && (counts.seed == none || user < counts.seed))
       counts.seed = user;
     counts.inverted += inverted.contains(f);
-    for (const int h : mesh.sides(f)) {
-      const int across = mesh.face_across(h);
+    for (const Side h : Mesh::sides(f)) {
+      const Face across = mesh.face_across(h);
       counts.border_edges += !region.contains(across);
       counts.crease_edges += inverted.contains(f) && across != none && !inverted.contains(across);
     }
@@ -150,7 +151,7 @@ bool is_inside_frame(const Mesh& mesh, const Point& p) {
 
 // Each culprit the defect names is one.
 bool is_true(const Mesh& mesh, const Defect& defect) {
-  const auto at = [&](int user) { return mesh.position(mesh.vertex_of_user(user)); };
+  const auto at = [&](UserVertex user) { return mesh.position(mesh.vertex_of_user(user)); };
   switch (defect.kind) {
     case DefectKind::CoincidentVertices:
       return defect.vertices.size() == 2 && at(defect.vertices[0]) == at(defect.vertices[1]);
@@ -173,8 +174,8 @@ bool nothing_touches(const Mesh& mesh) {
 }
 
 // Three steps, or until no valid mesh exists.
-template <class Move>
-std::string check_steps(Tangle tangle, bool rigid, const Move& move) {
+template <class Mover>
+std::string check_steps(Tangle tangle, bool rigid, const Mover& move) {
   for (int step = 0; step < 3; ++step) {
     const auto wrong = check_step(tangle.mesh, rigid);
     if (!wrong.empty()) return tangle.about + ", step " + to_string(step) + ": " + wrong;
@@ -189,11 +190,11 @@ std::string check_steps(Tangle tangle, bool rigid, const Move& move) {
 std::string outside_changed(const Mesh& before, const Mesh& after, const RepairRecord& record) {
   const auto replaced = replaced_faces(before, record);
   const auto old_state = snapshot_of(before), new_state = snapshot_of(after);
-  for (int f = 0; f < before.n_faces(); ++f) {
+  for (const Face f : before.faces()) {
     if (replaced[f]) continue;
     auto old_face = old_state.faces[f], new_face = new_state.faces[f];
     for (int k = 0; k < 3; ++k) {
-      const int across = before.face_across(Mesh::side(f, k));
+      const Face across = before.face_across(Mesh::side(f, k));
       if (across != none && replaced[across]) old_face.opposite[k] = new_face.opposite[k] = none;
     }
     if (old_face != new_face) return "changed face " + to_string(f);
@@ -213,7 +214,7 @@ std::string contract_broken(const Mesh& before, const Mesh& after, const RepairO
 }
 
 std::string regions_wrong(const Mesh& before, const RepairRecord& record) {
-  std::vector<std::vector<int>> found;
+  std::vector<std::vector<Face>> found;
   for (const auto& region : record.regions) found.emplace_back(region.faces.begin(), region.faces.end());
   std::sort(found.begin(), found.end());
   if (found != oracle::conflict_pieces(before)) return "the regions are not the pieces of phi(I)*";

@@ -32,7 +32,7 @@ bool is_in(const Point& p, const Point& low, const Point& high) {
 // The open box free vertices stay in: inside the convex border.
 std::pair<Point, Point> arena(const Mesh& mesh) {
   Point low = mesh.position(mesh.hull()[0]), high = low;
-  for (const int v : mesh.hull()) {
+  for (const Vertex v : mesh.hull()) {
     low = {std::min(low.x, mesh.position(v).x), std::min(low.y, mesh.position(v).y)};
     high = {std::max(high.x, mesh.position(v).x), std::max(high.y, mesh.position(v).y)};
   }
@@ -180,13 +180,13 @@ Tangle archipelago(Random& random) {
 
 // --- lattices ---
 
-bool is_free(const Mesh& mesh, int v) {
+bool is_free(const Mesh& mesh, Vertex v) {
   return !mesh.is_isolated(v) && !mesh.is_constrained(v) && mesh.user_vertex(v) != none;
 }
 
-std::vector<int> free_vertices(const Mesh& mesh) {
-  std::vector<int> free;
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+std::vector<Vertex> free_vertices(const Mesh& mesh) {
+  std::vector<Vertex> free;
+  for (const Vertex v : mesh.vertices()) {
     if (is_free(mesh, v)) free.push_back(v);
   }
   return free;
@@ -213,7 +213,7 @@ void collapse_rows(Mesh& mesh, Random& random) {
   const auto [low, high] = arena(mesh);
   const int from = 2 * (1 + random.below(3)), to = 1 + random.below(static_cast<int>(high.y) - 1);
   const double aside = random.one_in(2) ? 1 : -1;
-  for (const int v : free_vertices(mesh)) {
+  for (const Vertex v : free_vertices(mesh)) {
     Point& p = mesh.positions()[v];
     if (p.y == from) p = {p.x + aside, static_cast<double>(to)};
   }
@@ -246,19 +246,19 @@ Tangle random_lattice(Random& random) {
 }  // namespace
 
 void move_free(Mesh& mesh, const Map& map) {
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (is_free(mesh, v)) mesh.positions()[v] = snapped(map(mesh.position(v)));
   }
 }
 
 void move_constrained(Mesh& mesh, const Map& map) {
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (mesh.is_constrained(v)) mesh.positions()[v] = snapped(map(mesh.position(v)));
   }
 }
 
 void snap_frame(Mesh& mesh) {
-  for (const int v : mesh.frame()) mesh.positions()[v] = snapped(mesh.position(v));
+  for (const Vertex v : mesh.frame()) mesh.positions()[v] = snapped(mesh.position(v));
 }
 
 Tangle random_tangle(std::uint64_t seed) {
@@ -328,7 +328,7 @@ Tangle polyomino_tangle(std::uint64_t seed) {
 
 void jump_anywhere(Mesh& mesh, Random& random) {
   const int rarity = 2 + random.below(12);
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (mesh.is_isolated(v) || mesh.user_vertex(v) == none || !random.one_in(rarity)) continue;
     mesh.positions()[v] += Point(random.below(3) - 1, random.below(3) - 1);
   }

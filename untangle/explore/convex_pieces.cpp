@@ -4,16 +4,16 @@
 
 namespace kinemesh {
 
-int ConvexPieces::find(const std::array<int, 2>& faces) const {
+int ConvexPieces::find(const FacePair& faces) const {
   const auto found = number_.find(faces);
   return found == number_.end() ? none : found->second;
 }
 
-int ConvexPieces::add(int face, const Shadow& shadow) {
+int ConvexPieces::add(Face face, const Shadow& shadow) {
   return add({{face, none}, {shadow}, box_of(shadow), {}, {}});
 }
 
-int ConvexPieces::add(const std::array<int, 2>& faces, const Shadow& first, const Shadow& second) {
+int ConvexPieces::add(const FacePair& faces, const Shadow& first, const Shadow& second) {
   return add({faces, {first, second}, common(box_of(first), box_of(second)), {}, {}});
 }
 
@@ -42,10 +42,10 @@ void ConvexPieces::find_overlapping(int number) {
 
 void ConvexPieces::find_neighbors(int number) {
   auto& piece = pieces_[number];
-  for (const int face : piece.faces) {
+  for (const Face face : piece.faces) {
     if (face == none) break;
-    for (const int side : mesh_.sides(face)) {
-      const int beyond = mesh_.face_across(side);
+    for (const Side side : Mesh::sides(face)) {
+      const Face beyond = mesh_.face_across(side);
       if (beyond == none) continue;
       auto faces = piece.faces;
       std::replace(faces.begin(), faces.end(), face, beyond);

@@ -12,22 +12,24 @@
 
 namespace kinemesh {
 
+using FacePair = std::array<Face, 2>;
+
 // The shadow of an inverted face or, grown, the overlap of the shadows of two upright ones.
 struct ConvexPiece {
   // Beyond a side of one of the faces.
   struct Neighbor {
-    int side;
+    Side side;
     int piece;
   };
 
-  std::array<int, 2> faces;                            // the second is none unless grown
+  FacePair faces;                                      // the second is none unless grown
   boost::container::static_vector<Shadow, 2> shadows;  // of the faces
   Box box;
   boost::container::static_vector<Neighbor, 6> neighbors;
   std::vector<int> overlapping;  // pieces with interior points in common
 
   bool is_grown() const { return faces[1] != none; }
-  bool has(int face) const { return faces[0] == face || faces[1] == face; }
+  bool has(Face face) const { return faces[0] == face || faces[1] == face; }
 };
 
 class ConvexPieces {
@@ -39,9 +41,9 @@ class ConvexPieces {
 
   // The number of the piece f(face), or of the overlap of two upright faces in ascending order; none if it
   // has not been added.
-  int find(const std::array<int, 2>& faces) const;
-  int add(int face, const Shadow& shadow);
-  int add(const std::array<int, 2>& faces, const Shadow& first, const Shadow& second);
+  int find(const FacePair& faces) const;
+  int add(Face face, const Shadow& shadow);
+  int add(const FacePair& faces, const Shadow& first, const Shadow& second);
 
   // Numbers of pieces whose boxes meet this one, in no particular order.
   template <class Visit>
@@ -56,7 +58,13 @@ class ConvexPieces {
 
   const Mesh& mesh_;
   std::vector<ConvexPiece> pieces_;
-  std::unordered_map<std::array<int, 2>, int, boost::hash<std::array<int, 2>>> number_;
+  struct Hash {
+    std::size_t operator()(const FacePair& faces) const {
+      return boost::hash<std::array<int, 2>>()({faces[0], faces[1]});
+    }
+  };
+
+  std::unordered_map<FacePair, int, Hash> number_;
   BoxIndex index_;
 };
 

@@ -21,7 +21,7 @@ bool have_common_point(const Sheet& sheet, const ConvexPiece& d, const ConvexPie
 
 }  // namespace
 
-bool LocalExploration::run(int seed) {
+bool LocalExploration::run(Face seed) {
   extend(seed);
   if (!walk()) return false;
   gamma_first_stable_ = gamma_ = cover();
@@ -33,8 +33,8 @@ bool LocalExploration::run(int seed) {
   return gamma_ == 1;
 }
 
-std::vector<int> LocalExploration::faces() const {
-  std::vector<int> all;
+std::vector<Face> LocalExploration::faces() const {
+  std::vector<Face> all;
   for (const auto& sheet : sheets_.all()) {
     if (sheet.is_in_region) all.push_back(sheet.face);
   }
@@ -88,14 +88,14 @@ bool LocalExploration::walk() {
     const auto pair = pending_.back();
     pending_.pop_back();
     if (pair.sheet->is_inverted() && pieces_.find({pair.sheet->face, none}) == none) extend(pair.sheet->face);
-    for (const int side : mesh_.sides(pair.sheet->face)) cross(pair, side);
+    for (const Side side : mesh_.sides(pair.sheet->face)) cross(pair, side);
     change_piece(pair);
   }
   return !met_flat_face_;
 }
 
-void LocalExploration::cross(const Pair& pair, int side) {
-  const int beyond = across(side);
+void LocalExploration::cross(const Pair& pair, Side side) {
+  const Face beyond = across(side);
   if (beyond == none) return;
   const auto& piece = pieces_[pair.piece];
   for (const auto& n : piece.neighbors) {
@@ -106,12 +106,12 @@ void LocalExploration::cross(const Pair& pair, int side) {
   if (leads_across(pair, side)) visit(sheets_[beyond], pair.piece);
 }
 
-bool LocalExploration::leads_across(const Pair& pair, int side) {
+bool LocalExploration::leads_across(const Pair& pair, Side side) {
   const auto& piece = pieces_[pair.piece];
   const Point &a = mesh_.position(mesh_.from(side)), &b = mesh_.position(mesh_.to(side));
   if (meets_interior(a, b, {piece.shadows.data(), piece.shadows.size()})) return true;
   // A side of the piece on this edge: the face beyond lies over the piece if the edge is a crease.
-  const int beyond = across(side);
+  const Face beyond = across(side);
   for (std::size_t i = 0; i < piece.shadows.size(); ++i) {
     if (piece.faces[i] != pair.sheet->face && piece.faces[i] != beyond) continue;
     const auto others = piece.is_grown() ? std::span(&piece.shadows[1 - i], 1) : std::span<const Shadow>();
@@ -140,12 +140,12 @@ void LocalExploration::change_piece(const Pair& pair) {
 }
 
 // An edge that the piece and its neighbour share runs through the face where both are, or along its side.
-bool LocalExploration::are_beside(const Sheet& sheet, const ConvexPiece& piece, int side) const {
-  const int carrier = mesh_.face_of(side);
+bool LocalExploration::are_beside(const Sheet& sheet, const ConvexPiece& piece, Side side) const {
+  const Face carrier = mesh_.face_of(side);
   boost::container::static_vector<Shadow, 2> shadows;
   if (sheet.face != carrier) shadows.push_back(sheet.shadow);
   for (std::size_t i = 0; i < piece.shadows.size(); ++i) {
-    const int face = piece.faces[i];
+    const Face face = piece.faces[i];
     if (face != carrier && face != sheet.face) shadows.push_back(piece.shadows[i]);
   }
   return meets_interior(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side)),
@@ -165,13 +165,13 @@ bool LocalExploration::is_connected(const Sheet& sheet, int piece) const {
 // --- extending ---
 
 // The whole inverted component joins J, each of its faces over its own shadow.
-void LocalExploration::extend(int face) {
+void LocalExploration::extend(Face face) {
   ++components_;
-  std::vector<int> component{face};
+  std::vector<Face> component{face};
   const int first = pieces_.add(face, sheets_[face].shadow);
   for (std::size_t i = 0; i < component.size(); ++i) {
-    for (const int side : mesh_.sides(component[i])) {
-      const int beyond = across(side);
+    for (const Side side : mesh_.sides(component[i])) {
+      const Face beyond = across(side);
       if (beyond == none || !sheets_[beyond].is_inverted() || pieces_.find({beyond, none}) != none) continue;
       pieces_.add(beyond, sheets_[beyond].shadow);
       component.push_back(beyond);

@@ -31,9 +31,9 @@ class LocalExploration {
   // Explores from an inverted face. Pre: face is inverted. One call per object. Exact; in general position
   // the region is the minimum. False in degenerate positions: a flat face is met, or no stable region with
   // gamma = 1 came out.
-  [[nodiscard]] bool run(int seed);
+  [[nodiscard]] bool run(Face seed);
 
-  std::vector<int> faces() const;   // R*, ascending
+  std::vector<Face> faces() const;  // R*, ascending
   std::vector<Cell> cells() const;  // of R over the inverted faces of J, by face and piece
   const ConvexPieces& shadow() const { return pieces_; }                   // X
   int explored() const { return static_cast<int>(sheets_.all().size()); }  // faces whose corners were read
@@ -50,19 +50,19 @@ class LocalExploration {
     int piece;
   };
 
-  int across(int side) const { return mesh_.face_across(side); }
+  Face across(Side side) const { return mesh_.face_across(side); }
 
   void visit(Sheet& sheet, int piece);
   void mark(Sheet& sheet, int place);
   void mark_all(Sheet& sheet);
   bool walk();
-  void cross(const Pair& pair, int side);
-  bool leads_across(const Pair& pair, int side);
+  void cross(const Pair& pair, Side side);
+  bool leads_across(const Pair& pair, Side side);
   void change_piece(const Pair& pair);
-  void extend(int face);
+  void extend(Face face);
   void connect_new_piece(int piece);
   bool is_connected(const Sheet& sheet, int piece) const;
-  bool are_beside(const Sheet& sheet, const ConvexPiece& piece, int side) const;
+  bool are_beside(const Sheet& sheet, const ConvexPiece& piece, Side side) const;
   int cover() const;
   bool grow();
 

@@ -25,14 +25,14 @@ class Growth {
  private:
   using SheetPair = std::array<const Sheet*, 2>;
 
-  bool meets(int side, std::span<const Shadow> shadows) const {
+  bool meets(Side side, std::span<const Shadow> shadows) const {
     return meets_interior(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side)), shadows);
   }
-  bool meets(int side, const Sheet& sheet) const { return meets(side, std::span(&sheet.shadow, 1)); }
+  bool meets(Side side, const Sheet& sheet) const { return meets(side, std::span(&sheet.shadow, 1)); }
 
   void find_creases();
   void start();
-  void start_at(int crease, const std::vector<const Sheet*>& upright);
+  void start_at(Side crease, const std::vector<const Sheet*>& upright);
   void move(const Sheet& moving, const Sheet& staying);
   void add(const Sheet& t, const Sheet& u);
   bool is_inside(const Sheet& sheet);
@@ -40,7 +40,7 @@ class Growth {
   const Mesh& mesh_;
   Sheets& sheets_;
   ConvexPieces& pieces_;
-  std::vector<int> creases_;  // the sides of inverted faces along them
+  std::vector<Side> creases_;  // the sides of inverted faces along them
   BoxIndex crease_index_;
   std::unordered_map<int, bool> is_inside_;  // by face
   std::vector<SheetPair> pending_;
@@ -50,8 +50,8 @@ void Growth::find_creases() {
   std::vector<NumberedBox> boxes;
   for (int piece = 0; piece < pieces_.size(); ++piece) {
     if (pieces_[piece].is_grown()) continue;
-    for (const int side : mesh_.sides(pieces_[piece].faces[0])) {
-      const int beyond = mesh_.face_across(side);
+    for (const Side side : mesh_.sides(pieces_[piece].faces[0])) {
+      const Face beyond = mesh_.face_across(side);
       if (beyond == none || sheets_[beyond].is_inverted()) continue;
       creases_.push_back(side);
       boxes.emplace_back(box_of(mesh_.position(mesh_.from(side)), mesh_.position(mesh_.to(side))), side);
@@ -67,11 +67,11 @@ void Growth::start() {
       if (sheet.visited[i] && !sheet.is_inverted()) upright[sheet.over[i]].push_back(&sheet);
     }
   }
-  for (const int crease : creases_) start_at(crease, upright[pieces_.find({mesh_.face_of(crease), none})]);
+  for (const Side crease : creases_) start_at(crease, upright[pieces_.find({mesh_.face_of(crease), none})]);
 }
 
 // Where X covers both sides of the crease the pairs lead to its border, and add nothing to X before.
-void Growth::start_at(int crease, const std::vector<const Sheet*>& upright) {
+void Growth::start_at(Side crease, const std::vector<const Sheet*>& upright) {
   std::vector<const Sheet*> crossed;
   std::copy_if(upright.begin(), upright.end(), std::back_inserter(crossed),
                [&](const Sheet* sheet) { return meets(crease, *sheet); });
@@ -83,8 +83,8 @@ void Growth::start_at(int crease, const std::vector<const Sheet*>& upright) {
 }
 
 void Growth::move(const Sheet& moving, const Sheet& staying) {
-  for (const int side : mesh_.sides(moving.face)) {
-    const int beyond = mesh_.face_across(side);
+  for (const Side side : mesh_.sides(moving.face)) {
+    const Face beyond = mesh_.face_across(side);
     if (beyond == none || !meets(side, staying)) continue;
     const auto& next = sheets_[beyond];
     if (next.turn == Orientation::CounterClockwise) add(next, staying);
@@ -102,7 +102,8 @@ void Growth::add(const Sheet& t, const Sheet& u) {
 bool Growth::is_inside(const Sheet& sheet) {
   const auto [known, is_new] = is_inside_.try_emplace(sheet.face, false);
   if (is_new && sheet.is_in_region) {
-    known->second = !any_near(crease_index_, sheet.box, [&](int crease) { return meets(crease, sheet); });
+    known->second =
+        !any_near(crease_index_, sheet.box, [&](int crease) { return meets(Side(crease), sheet); });
   }
   return known->second;
 }

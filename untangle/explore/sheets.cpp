@@ -36,7 +36,7 @@ bool Sheet::is_visited(int piece) const {
   return place != none && visited[place];
 }
 
-Sheet& Sheets::operator[](int face) {
+Sheet& Sheets::operator[](Face face) {
   auto& sheet = sheet_of_[face];
   if (!sheet) {
     const auto shadow = mesh_.corners(face);
@@ -46,7 +46,7 @@ Sheet& Sheets::operator[](int face) {
   return *sheet;
 }
 
-const Sheet* Sheets::find(int face) const {
+const Sheet* Sheets::find(Face face) const {
   const auto found = sheet_of_.find(face);
   return found == sheet_of_.end() ? nullptr : found->second;
 }

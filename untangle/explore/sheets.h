@@ -14,7 +14,7 @@
 namespace kinemesh {
 
 struct Sheet {
-  int face;
+  Face face;
   Shadow shadow;
   Box box;
   Orientation turn;
@@ -35,8 +35,8 @@ class Sheets {
   explicit Sheets(const Mesh& mesh) : mesh_(mesh) {}
 
   // The only place that reads a face's corners.
-  Sheet& operator[](int face);
-  const Sheet* find(int face) const;  // null if it has not been read
+  Sheet& operator[](Face face);
+  const Sheet* find(Face face) const;  // null if it has not been read
   const std::deque<Sheet>& all() const { return sheets_; }
 
   // Finds what lies over the face; from then on `add_piece` has to be told of new pieces.

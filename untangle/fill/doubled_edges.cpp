@@ -10,7 +10,7 @@
 namespace kinemesh {
 namespace {
 
-Edge ordered(int a, int b) {
+MeshEdge ordered(Vertex a, Vertex b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
@@ -45,18 +45,18 @@ class EdgeCount {
   }
 
  private:
-  int corner(int t, int k) const { return faces_.triangles[t][k % 3]; }
+  Vertex corner(int t, int k) const { return faces_.triangles[t][k % 3]; }
   bool is_doubled(int t, int k) const { return count(corner(t, k), corner(t, k + 1)) > 1; }
-  int count(int a, int b) const {
+  int count(Vertex a, Vertex b) const {
     const auto found = count_.find(ordered(a, b));
     return found == count_.end() ? 0 : found->second;
   }
 
   // Every vertex of the border starts one side of it, or several.
-  void count_kept_edges(int vertex) {
+  void count_kept_edges(Vertex vertex) {
     if (!seen_.insert(vertex).second) return;
     for (Spokes spokes(mesh_, vertex); !spokes.is_done(); spokes.advance()) {
-      const int across = mesh_.face_across(spokes.side());
+      const Face across = mesh_.face_across(spokes.side());
       const bool freed = across != none && sets_.set_of(Mesh::face_of(spokes.side())) == set_ &&
                          sets_.set_of(across) == set_;
       // Seen from both ends if both are on the border; counted from the lower one, and others cannot be
@@ -69,7 +69,7 @@ class EdgeCount {
     if (faces_.constraints[t][k] != none) return false;
     const int u = faces_.neighbours[t][k];
     const int j = side_back(t, k);
-    const int a = corner(t, k), b = corner(t, k + 1), c = corner(t, k + 2), d = corner(u, j + 2);
+    const Vertex a = corner(t, k), b = corner(t, k + 1), c = corner(t, k + 2), d = corner(u, j + 2);
     if (c == d || count(c, d) > 0) return false;
     if (!is_upright(c, a, d) || !is_upright(d, b, c)) return false;
     --count_[ordered(a, b)];
@@ -85,7 +85,7 @@ class EdgeCount {
   };
   Outside take(int t, int k) const { return {faces_.neighbours[t][k % 3], faces_.constraints[t][k % 3]}; }
 
-  void put(int t, const Triangle& corners, const std::array<Outside, 3>& outside) {
+  void put(int t, const MeshTriangle& corners, const std::array<Outside, 3>& outside) {
     const int other = outside[2].neighbour;
     for (int k = 0; k < 3; ++k) {
       const int beyond = outside[k].neighbour;
@@ -107,7 +107,7 @@ class EdgeCount {
     return j;
   }
 
-  bool is_upright(int a, int b, int c) const {
+  bool is_upright(Vertex a, Vertex b, Vertex c) const {
     return orientation(mesh_.position(a), mesh_.position(b), mesh_.position(c)) ==
            Orientation::CounterClockwise;
   }
@@ -116,8 +116,8 @@ class EdgeCount {
   const FaceSets& sets_;
   int set_;
   NewFaces& faces_;
-  std::map<Edge, int> count_;
-  std::set<int> seen_;
+  std::map<MeshEdge, int> count_;
+  std::set<Vertex> seen_;
 };
 
 }  // namespace

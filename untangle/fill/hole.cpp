@@ -6,9 +6,9 @@ void Hole::dig(const Mesh& mesh, const FaceSets& sets, int set) {
   faces = sets.faces(set);
   border.clear();
   inner_constraints.clear();
-  for (const int face : faces) {
-    for (const int side : Mesh::sides(face)) {
-      const int across = mesh.face_across(side);
+  for (const Face face : faces) {
+    for (const Side side : Mesh::sides(face)) {
+      const Face across = mesh.face_across(side);
       if (across == none || sets.set_of(across) != set)
         border.push_back({side, mesh.from(side), mesh.to(side)});
       else if (face < across && mesh.has_constraint(side))

@@ -13,7 +13,7 @@
 namespace kinemesh {
 namespace {
 
-Edge user_ends(const Mesh& mesh, int from, int to) {
+UserEdge user_ends(const Mesh& mesh, Vertex from, Vertex to) {
   return {mesh.user_vertex(from), mesh.user_vertex(to)};
 }
 
@@ -23,7 +23,7 @@ class LabelFlood {
     start(mesh, faces);
     for (int t = 0; t < faces.size(); ++t) {
       for (int k = 0; k < 3; ++k) {
-        if (faces.neighbours[t][k] < 0) enter(t, ~faces.neighbours[t][k]);
+        if (faces.neighbours[t][k] < 0) enter(t, Side(~faces.neighbours[t][k]));
       }
     }
     while (!pending_.empty() && !defect_) {
@@ -39,14 +39,14 @@ class LabelFlood {
     mesh_ = &mesh;
     faces_ = &faces;
     faces.labels.assign(faces.size(), 0);
-    source_.assign(faces.size(), Edge{none, none});
+    source_.assign(faces.size(), {});
     has_label_.assign(faces.size(), false);
     pending_.clear();
     defect_.reset();
   }
 
   // From the face that has been inside the border so far.
-  void enter(int t, int side) {
+  void enter(int t, Side side) {
     set(t, mesh_->label(Mesh::face_of(side)), user_ends(*mesh_, mesh_->from(side), mesh_->to(side)));
   }
 
@@ -60,12 +60,12 @@ class LabelFlood {
     }
     const auto& constraint = mesh_->constraints()[number];
     const bool on_left = faces_->triangles[t][k] == constraint.from;
-    const Edge ends = user_ends(*mesh_, constraint.from, constraint.to);
+    const UserEdge ends = user_ends(*mesh_, constraint.from, constraint.to);
     set(t, on_left ? constraint.left : constraint.right, ends);
     set(across, on_left ? constraint.right : constraint.left, ends);
   }
 
-  void set(int t, int label, const Edge& source) {
+  void set(int t, int label, const UserEdge& source) {
     if (!has_label_[t]) {
       has_label_[t] = true;
       faces_->labels[t] = label;
@@ -80,7 +80,7 @@ class LabelFlood {
 
   const Mesh* mesh_ = nullptr;
   NewFaces* faces_ = nullptr;
-  std::vector<Edge> source_;  // per face: where its label came from
+  std::vector<UserEdge> source_;  // per face: where its label came from
   std::vector<bool> has_label_;
   std::vector<int> pending_;
   std::optional<Defect> defect_;
@@ -89,17 +89,17 @@ class LabelFlood {
 // What nearly every region has: then there is nothing to spread.
 bool has_one_label(const Mesh& mesh, const Hole& hole, const NewFaces& faces) {
   const int label = mesh.label(hole.faces.front());
-  return std::ranges::all_of(hole.faces, [&](int face) { return mesh.label(face) == label; }) &&
+  return std::ranges::all_of(hole.faces, [&](Face face) { return mesh.label(face) == label; }) &&
          std::ranges::all_of(faces.constraints, [](const Triangle& c) {
            return c == Triangle{none, none, none};
          });
 }
 
 // The vertex with the smallest number of those that have, or none.
-int first_escaped(const Mesh& mesh, const NewFaces& faces) {
-  int first = none;
+Vertex first_escaped(const Mesh& mesh, const NewFaces& faces) {
+  Vertex first;
   for (int t = 0; t < faces.size(); ++t) {
-    for (const int v : faces.triangles[t]) {
+    for (const Vertex v : faces.triangles[t]) {
       const bool escaped = !mesh.is_constrained(v) && mesh.home_label(v) != faces.labels[t];
       if (escaped && (first == none || mesh.user_vertex(v) < mesh.user_vertex(first))) first = v;
     }
@@ -115,7 +115,7 @@ double squared_distance(const Point& p, const Point& a, const Point& b) {
   return glm::dot(off, off);
 }
 
-std::string name_of(const Edge& edge) {
+std::string name_of(const UserEdge& edge) {
   return "edge " + std::to_string(edge[0]) + "-" + std::to_string(edge[1]);
 }
 
@@ -129,7 +129,7 @@ std::string name_of(const Mesh& mesh, const Constraint& c) {
 }
 
 // The border or interface the vertex has crossed: of those of the label it comes from, the nearest one.
-std::string crossed_by(const Mesh& mesh, int vertex) {
+std::string crossed_by(const Mesh& mesh, Vertex vertex) {
   const int home = mesh.home_label(vertex);
   const Constraint* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
@@ -164,7 +164,9 @@ class PatchBuilder {
  private:
   // A new face by its label and the side from its smallest corner, which is no other's.
   struct Key {
-    int label, first, second, face;
+    int label;
+    Vertex first, second;
+    int face;
     auto operator<=>(const Key&) const = default;
   };
 
@@ -199,13 +201,13 @@ class PatchBuilder {
 
   void assign_slots() {
     slots_ = hole_->faces;
-    const auto by_label = [&](int f, int g) { return mesh_->label(f) < mesh_->label(g); };
+    const auto by_label = [&](Face f, Face g) { return mesh_->label(f) < mesh_->label(g); };
     if (!std::is_sorted(slots_.begin(), slots_.end(), by_label))
       std::stable_sort(slots_.begin(), slots_.end(), by_label);
     const std::size_t n = slots_.size();
     spare_faces_.clear();
     spare_slots_.clear();
-    patch_->faces.assign(n, none);
+    patch_->faces.assign(n, Face());
     for (std::size_t i = 0, j = 0; i < n || j < n;) {
       if (j == n || (i < n && mesh_->label(slots_[i]) < patch_->labels[j]))
         spare_slots_.push_back(slots_[i++]);
@@ -230,21 +232,23 @@ class PatchBuilder {
   // What lies beyond; of a constrained edge the first side to come notes it.
   int connect(int i, int k) {
     const int beyond = across_[i][k];
+    const Side here = Mesh::side(Face(i), k);
     if (beyond < 0) {
       ++n_border_;
-      if (mesh_->has_constraint(~beyond))
-        patch_->lines.push_back({Mesh::side(i, k), mesh_->constraint_of(~beyond)});
+      const Side border(~beyond);
+      if (mesh_->has_constraint(border)) patch_->lines.push_back({here, mesh_->constraint_of(border)});
       return beyond;
     }
-    const int place = place_[beyond], back = Mesh::side(place, side_back(i, k, place));
-    if (constraints_[i][k] != none && Mesh::side(i, k) < back)
-      patch_->lines.push_back({Mesh::side(i, k), constraints_[i][k]});
+    const Face place(place_[beyond]);
+    const Side back = Mesh::side(place, side_back(i, k, place));
+    if (constraints_[i][k] != none && here < back) patch_->lines.push_back({here, constraints_[i][k]});
     return back;
   }
 
   // The side of the face beyond that lies on side k of the one at place i.
   int side_back(int i, int k, int beyond) const {
-    const int face = keys_[i].face, start = patch_->triangles[i][following(k)];
+    const int face = keys_[i].face;
+    const Vertex start = patch_->triangles[i][following(k)];
     for (int j = 0; j < 3; ++j) {
       if (across_[beyond][j] == face && patch_->triangles[beyond][j] == start) return j;
     }
@@ -263,23 +267,24 @@ class PatchBuilder {
   void certify_constraints() {
     old_constraints_.clear();
     for (const auto& edge : hole_->border) note_old(edge.side);
-    for (const int side : hole_->inner_constraints) note_old(side);
+    for (const Side side : hole_->inner_constraints) note_old(side);
     new_constraints_.clear();
     for (const auto& line : patch_->lines) new_constraints_.push_back(line.constraint);
     std::sort(old_constraints_.begin(), old_constraints_.end());
     std::sort(new_constraints_.begin(), new_constraints_.end());
     if (new_constraints_ != old_constraints_) throw std::logic_error("a region lost a constrained edge");
   }
-  void note_old(int side) {
+  void note_old(Side side) {
     if (mesh_->has_constraint(side)) old_constraints_.push_back(mesh_->constraint_of(side));
   }
 
   static int following(int k) { return k == 2 ? 0 : k + 1; }
-  static int smallest(const Triangle& t) {
+  static int smallest(const MeshTriangle& t) {
     const int k = t[1] < t[0] ? 1 : 0;
     return t[2] < t[k] ? 2 : k;
   }
-  static Triangle turned(const Triangle& t, int k) {
+  template <class T>
+  static std::array<T, 3> turned(const std::array<T, 3>& t, int k) {
     const int l = following(k);
     return {t[k], t[l], t[following(l)]};
   }
@@ -288,11 +293,11 @@ class PatchBuilder {
   const Hole* hole_ = nullptr;
   const NewFaces* faces_ = nullptr;
   Patch* patch_ = nullptr;
-  std::vector<Key> keys_;                 // of the new faces in the patch's order, by which what follows goes
-  std::vector<Triangle> across_;          // per face and side as in NewFaces, by its numbers
-  std::vector<Triangle> constraints_;     // likewise
-  std::vector<int> place_;                // of each new face in the patch
-  std::vector<int> slots_, spare_slots_;  // faces of the mesh
+  std::vector<Key> keys_;              // of the new faces in the patch's order, by which what follows goes
+  std::vector<Triangle> across_;       // per face and side as in NewFaces, by its numbers
+  std::vector<Triangle> constraints_;  // likewise
+  std::vector<int> place_;             // of each new face in the patch
+  std::vector<Face> slots_, spare_slots_;
   std::vector<std::size_t> spare_faces_;  // places in the patch
   std::size_t n_border_ = 0;              // sides on the border
   std::vector<int> old_constraints_, new_constraints_;
@@ -309,10 +314,12 @@ std::string lines_of(const Mesh& mesh, const Defect& defect) {
     for (const std::string& name : names)
       lines += (name != *names.begin() ? " and " : (lines.empty() ? "" : ", ") + culprit + " is of ") + name;
   };
-  for (const int v : defect.vertices)
-    add("vertex " + std::to_string(v), [v](const Edge& ends) { return ends[0] == v || ends[1] == v; });
-  for (const Edge& edge : defect.edges)
-    add(name_of(edge), [&](const Edge& ends) { return ends == edge || ends == Edge{edge[1], edge[0]}; });
+  for (const UserVertex v : defect.vertices)
+    add("vertex " + std::to_string(v), [v](const UserEdge& ends) { return ends[0] == v || ends[1] == v; });
+  for (const UserEdge& edge : defect.edges)
+    add(name_of(edge), [&](const UserEdge& ends) {
+      return ends == edge || ends == UserEdge{edge[1], edge[0]};
+    });
   return lines;
 }
 
@@ -323,7 +330,8 @@ void NewFaces::clear() {
   labels.clear();
 }
 
-void NewFaces::add(const Triangle& corners, const Triangle& neighbours_of, const Triangle& constraints_of) {
+void NewFaces::add(const MeshTriangle& corners, const Triangle& neighbours_of,
+                   const Triangle& constraints_of) {
   triangles.push_back(corners);
   neighbours.push_back(neighbours_of);
   constraints.push_back(constraints_of);
@@ -352,7 +360,7 @@ std::optional<Defect> Finisher::run(const Mesh& mesh, const Hole& hole, NewFaces
     faces.labels.assign(faces.size(), mesh.label(hole.faces.front()));
   else if (auto defect = scratch_->labels.run(mesh, faces))
     return defect;
-  if (const int first = allow_escaped ? none : first_escaped(mesh, faces); first != none) {
+  if (const Vertex first = allow_escaped ? none : first_escaped(mesh, faces); first != none) {
     return Defect{.kind = DefectKind::Escaped,
                   .vertices = {mesh.user_vertex(first)},
                   .where = mesh.position(first),

@@ -14,7 +14,7 @@ namespace kinemesh {
 
 // Side k of a triangle runs from corner k to corner k + 1.
 struct NewFaces {
-  std::vector<Triangle> triangles;  // vertices of the mesh, counter-clockwise
+  std::vector<MeshTriangle> triangles;  // counter-clockwise
   std::vector<Triangle>
       neighbours;  // across side k: number of another triangle, or ~s where side k lies where side
                    // s of one of the region's faces lies on the region's border
@@ -23,7 +23,7 @@ struct NewFaces {
 
   int size() const { return static_cast<int>(triangles.size()); }
   void clear();
-  void add(const Triangle& corners, const Triangle& neighbours_of, const Triangle& constraints_of);
+  void add(const MeshTriangle& corners, const Triangle& neighbours_of, const Triangle& constraints_of);
 };
 
 // As many faces as were taken out, and as many sides along the border.

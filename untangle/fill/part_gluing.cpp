@@ -93,7 +93,8 @@ class Gluing {
     NewFaces faces;
     for (int f = 0; f < surface_.n_faces(); ++f) {
       if (number[f] == none) continue;
-      Triangle corners, neighbours, constraints;
+      MeshTriangle corners;
+      Triangle neighbours, constraints;
       for (int k = 0; k < 3; ++k) {
         const int side = 3 * f + k, mate = surface_.mates[side];
         corners[k] = set_.vertex(surface_.corners[side]);
@@ -117,10 +118,10 @@ class Gluing {
 
   // Each side of the border of R* bounds one new face, from end to end.
   bool fits_border(const NewFaces& faces) const {
-    std::vector<int> found;
+    std::vector<Side> found;
     for (int f = 0; f < faces.size(); ++f) {
       for (int k = 0; k < 3; ++k) {
-        const int mesh_side = ~faces.neighbours[f][k];
+        const Side mesh_side(~faces.neighbours[f][k]);
         if (mesh_side < 0) continue;
         if (!runs_along(faces.triangles[f], k, mesh_side)) return false;
         found.push_back(mesh_side);
@@ -130,17 +131,17 @@ class Gluing {
     return found == border_of_set();
   }
 
-  bool runs_along(const Triangle& corners, int k, int mesh_side) const {
+  bool runs_along(const MeshTriangle& corners, int k, Side mesh_side) const {
     return corners[k] == set_.mesh().from(mesh_side) && corners[(k + 1) % 3] == set_.mesh().to(mesh_side);
   }
 
   // The sides inside it, ascending.
-  std::vector<int> border_of_set() const {
-    std::vector<int> border;
-    for (const int face : set_.faces()) {
+  std::vector<Side> border_of_set() const {
+    std::vector<Side> border;
+    for (const Face face : set_.faces()) {
       const auto sides = set_.mesh().sides(face);
       std::copy_if(sides.begin(), sides.end(), std::back_inserter(border),
-                   [&](int side) { return !set_.is_inner(side); });
+                   [&](Side side) { return !set_.is_inner(side); });
     }
     std::sort(border.begin(), border.end());
     return border;

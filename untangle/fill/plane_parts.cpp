@@ -38,7 +38,7 @@ class PartsMesher {
  private:
   // --- outside X, face by face ---
 
-  bool add_sheet(int face, const std::vector<int>& subs) {
+  bool add_sheet(Face face, const std::vector<int>& subs) {
     Outline outline;
     for (const int v : set_.corners(face)) outline.add_vertex(v);
     for (const int s : subs) outline.add_sub_segment(s, border_.subs[s]);
@@ -49,7 +49,7 @@ class PartsMesher {
   }
 
   // What is open lies on a side of the mesh's face. False if it cannot be told on which.
-  bool find_mesh_sides(int face, PlanePart& part) {
+  bool find_mesh_sides(Face face, PlanePart& part) {
     for (auto& [corners, sides] : part) {
       for (int k = 0; k < 3; ++k) {
         if (!is_open(sides[k])) continue;
@@ -62,7 +62,7 @@ class PartsMesher {
   }
 
   // Bits 0 to 2: the sides of the face that the vertex lies on.
-  int sides_through(int face, int v) const {
+  int sides_through(Face face, int v) const {
     const auto corners = set_.corners(face);
     int sides = 0;
     for (int k = 0; k < 3; ++k) {
@@ -77,7 +77,7 @@ class PartsMesher {
     return CGAL::collinear(p[a], p[b], p[c]);
   }
 
-  void close(PlaneSide& side, int mesh_side) {
+  void close(PlaneSide& side, Side mesh_side) {
     side.mesh_side = mesh_side;
     if (set_.is_inner(mesh_side)) side.constraint = mesh_.constraint_of(mesh_side);
   }
@@ -100,7 +100,7 @@ class PartsMesher {
     std::vector<bool> is_inside(set_.n_vertices(), false);
     for (const auto& [inverted, faces] : set_.over()) {
       for (const int v : set_.corners(inverted)) is_inside[v] = true;
-      for (const int face : faces) {
+      for (const Face face : faces) {
         for (const int v : set_.corners(face)) is_inside[v] = is_inside[v] || is_over(v, inverted);
       }
     }
@@ -109,15 +109,15 @@ class PartsMesher {
     }
   }
 
-  bool is_over(int v, int inverted) const {
+  bool is_over(int v, Face inverted) const {
     return strictly_inside(mesh_.position(set_.vertex(v)), mesh_.corners(inverted));
   }
 
   // A constrained edge is cut where the border of R crosses it; what was not met outside X is in R.
   void add_constraints(Outline& outline) const {
     const auto met = seams_met();
-    for (const int side : constrained_sides()) {
-      const int edge = mesh_.lower(side);
+    for (const Side side : constrained_sides()) {
+      const Side edge = mesh_.lower(side);
       const auto stops = stops_along(side);
       for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
         const int a = stops[i], b = stops[i + 1];
@@ -141,10 +141,10 @@ class PartsMesher {
   }
 
   // One side of each constrained edge between faces of R*.
-  std::vector<int> constrained_sides() const {
-    std::vector<int> constrained;
-    for (const int face : set_.faces()) {
-      for (const int side : mesh_.sides(face)) {
+  std::vector<Side> constrained_sides() const {
+    std::vector<Side> constrained;
+    for (const Face face : set_.faces()) {
+      for (const Side side : Mesh::sides(face)) {
         const bool is_first = set_.is_inner(side) && face <= mesh_.face_across(side);
         if (is_first && mesh_.constraint_of(side) != none) constrained.push_back(side);
       }
@@ -153,7 +153,7 @@ class PartsMesher {
   }
 
   // The border's vertices on a mesh edge, in order.
-  std::vector<int> stops_along(int mesh_side) const {
+  std::vector<int> stops_along(Side mesh_side) const {
     const int a = set_.number(mesh_.from(mesh_side)), b = set_.number(mesh_.to(mesh_side));
     std::vector<int> stops{a, b};
     add_extra_on(a, b, border_.subs_of, Mesh::face_of(mesh_side), stops);
@@ -167,7 +167,8 @@ class PartsMesher {
   }
 
   // Of the sub-segments of a face, or along a crease, the extra vertices on the line from a to b.
-  void add_extra_on(int a, int b, const std::map<int, std::vector<int>>& subs_by, int key,
+  template <class Key>
+  void add_extra_on(int a, int b, const std::map<Key, std::vector<int>>& subs_by, Key key,
                     std::vector<int>& stops) const {
     const auto subs = subs_by.find(key);
     if (subs == subs_by.end()) return;

@@ -17,7 +17,7 @@ struct ShadowBorder;
 struct PlaneSide {
   int face = none;
   int sub = none;
-  int mesh_side = none;
+  Side mesh_side;
   int constraint = none;  // number of one, or none; none on the border of R*
 };
 

@@ -1,7 +1,6 @@
 #include "untangle/fill/records.h"
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 #include <glm/common.hpp>
 #include <numeric>
 
@@ -13,7 +12,7 @@
 namespace kinemesh {
 namespace {
 
-using FewFaces = boost::container::small_vector<int, 32>;
+using FewFaces = ShortList<Face, 32>;
 
 // What is to be told of a region's faces as they are.
 struct Survey {
@@ -21,10 +20,10 @@ struct Survey {
   Point low, high;          // corners of the bounding box
 };
 
-Survey survey(const Mesh& mesh, const std::vector<int>& faces) {
+Survey survey(const Mesh& mesh, const std::vector<Face>& faces) {
   const Point first = mesh.corners(faces.front())[0];
   Survey found{{}, {}, first, first};
-  for (const int face : faces) {
+  for (const Face face : faces) {
     const auto [a, b, c] = mesh.corners(face);
     const auto turn = orientation(a, b, c);
     if (turn == Orientation::Clockwise) found.inverted.push_back(face);
@@ -35,16 +34,16 @@ Survey survey(const Mesh& mesh, const std::vector<int>& faces) {
   return found;
 }
 
-bool contains(const FewFaces& sorted, int value) {
-  return std::binary_search(sorted.begin(), sorted.end(), value);
+bool contains(const FewFaces& sorted, Face face) {
+  return std::binary_search(sorted.begin(), sorted.end(), face);
 }
 
 // Between inverted faces and upright ones.
 int count_crease_edges(const Mesh& mesh, const Survey& found) {
   int count = 0;
-  for (const int face : found.inverted) {
-    for (const int side : mesh.sides(face)) {
-      const int across = mesh.face_across(side);
+  for (const Face face : found.inverted) {
+    for (const Side side : Mesh::sides(face)) {
+      const Face across = mesh.face_across(side);
       count += across != none && !contains(found.inverted, across) && !contains(found.flat, across);
     }
   }
@@ -57,11 +56,11 @@ int count_components(const Mesh& mesh, const FewFaces& inverted) {
 }
 
 // The smallest of the user's numbers, or none.
-int seed_of(const Mesh& mesh, const Survey& found) {
-  int seed = none;
+UserFace seed_of(const Mesh& mesh, const Survey& found) {
+  UserFace seed;
   for (const auto* faces : {&found.inverted, &found.flat}) {
-    for (const int face : *faces) {
-      const int user = mesh.user_face(face);
+    for (const Face face : *faces) {
+      const UserFace user = mesh.user_face(face);
       if (user != none && (seed == none || user < seed)) seed = user;
     }
   }
@@ -70,9 +69,9 @@ int seed_of(const Mesh& mesh, const Survey& found) {
 
 }  // namespace
 
-Tangles detect(const Mesh& mesh, const RepairOptions& options, RepairRecord& record) {
+Tangles detect(const Mesh& mesh, const Move& move, RepairRecord& record) {
   const Stopwatch detecting;
-  auto tangles = detect(mesh, options.minima, options.moved);
+  auto tangles = detect(mesh, move.minima(), move.moved());
   record.inverted = static_cast<int>(tangles.inverted.size());
   record.degenerate = static_cast<int>(tangles.flat.size());
   record.detect_ms = detecting.milliseconds();
@@ -92,7 +91,7 @@ RegionRecord describe_region(const Mesh& mesh, const Hole& region) {
   record.crease_edges = count_crease_edges(mesh, found);
   record.centre = found.low + 0.5 * (found.high - found.low);
   record.user_faces.reserve(record.faces.size());
-  for (const int face : record.faces) {
+  for (const Face face : record.faces) {
     if (!mesh.is_padding(face)) record.user_faces.push_back(mesh.user_face(face));
   }
   sort_distinct(record.user_faces, mesh.n_faces());
@@ -106,8 +105,8 @@ bool is_seeded_before(const RegionRecord& a, const RegionRecord& b) {
 int count_escaped(const Mesh& mesh, const RepairOptions& options) {
   if (!options.allow_escaped) return 0;
   std::vector<bool> escaped(mesh.n_vertices(), false);
-  for (int face = 0; face < mesh.n_faces(); ++face) {
-    for (const int v : mesh.triangles()[face]) {
+  for (const Face face : mesh.faces()) {
+    for (const Vertex v : mesh.triangles()[face]) {
       if (!mesh.is_constrained(v) && mesh.home_label(v) != mesh.label(face)) escaped[v] = true;
     }
   }

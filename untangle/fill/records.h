@@ -9,7 +9,7 @@
 namespace kinemesh {
 
 // Detects, and records how much there is and how long that took.
-Tangles detect(const Mesh& mesh, const RepairOptions& options, RepairRecord& record);
+Tangles detect(const Mesh& mesh, const Move& move, RepairRecord& record);
 
 // Fills what follows from the faces alone (faces, user_faces, seed, inverted, degenerate, components,
 // crease_edges, explored, border_edges, centre). To be called before anything is spliced.

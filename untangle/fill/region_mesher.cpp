@@ -48,16 +48,16 @@ void RegionMesher::collect() {
   add_vertices();
   edges_.clear();
   for (const auto& side : hole_->border) edges_.push_back({local_of_[side.from], local_of_[side.to]});
-  for (const int side : hole_->inner_constraints)
+  for (const Side side : hole_->inner_constraints)
     edges_.push_back({local_of_[mesh_->from(side)], local_of_[mesh_->to(side)]});
 }
 
 void RegionMesher::add_vertices() {
-  for (const int v : vertices_) local_of_[v] = none;
+  for (const Vertex v : vertices_) local_of_[v] = none;
   vertices_.clear();
   if (static_cast<int>(local_of_.size()) < mesh_->n_vertices()) local_of_.resize(mesh_->n_vertices(), none);
-  for (const int face : hole_->faces) {
-    for (const int v : mesh_->triangles()[face]) {
+  for (const Face face : hole_->faces) {
+    for (const Vertex v : mesh_->triangles()[face]) {
       if (local_of_[v] != none) continue;
       vertices_.push_back(v);
       local_of_[v] = 0;
@@ -123,8 +123,8 @@ bool RegionMesher::select_inside() {
   return inside_.size() == hole_->faces.size() && constrained_sides == 2 * hole_->inner_constraints.size();
 }
 
-Defect RegionMesher::left_domain(int vertex) const {
-  return {.kind = DefectKind::LeftDomain, .vertices = {user(vertex)}, .where = points_[vertex]};
+Defect RegionMesher::left_domain(int local) const {
+  return {.kind = DefectKind::LeftDomain, .vertices = {user(local)}, .where = points_[local]};
 }
 
 // A vertex beyond the border of the whole mesh is in no face of the region.
@@ -160,7 +160,8 @@ void RegionMesher::convert() {
   for (std::size_t i = 0; i < inside_.size(); ++i) number_[inside_[i]] = static_cast<int>(i);
   new_faces_.clear();
   for (const int t : inside_) {
-    Triangle corners, neighbours, constraints{none, none, none};
+    MeshTriangle corners;
+    Triangle neighbours, constraints{none, none, none};
     for (int k = 0; k < 3; ++k) {
       const int edge = triangulation_.edges[t][k];
       const bool on_border = edge != none && edge < border_edges();

@@ -42,15 +42,15 @@ class RegionMesher {
   void add_vertices();
   std::optional<Defect> verdict(const Contact& contact) const;
   bool select_inside();
-  Defect left_domain(int vertex) const;
+  Defect left_domain(int local) const;
   bool find_lost_vertex();
   bool find_taken_edge();
   void convert();
 
   int border_edges() const { return static_cast<int>(hole_->border.size()); }
   bool is_constrained(int edge) const;
-  int user(int local) const { return mesh_->user_vertex(vertices_[local]); }
-  Edge user_edge(int edge) const { return {user(edges_[edge][0]), user(edges_[edge][1])}; }
+  UserVertex user(int local) const { return mesh_->user_vertex(vertices_[local]); }
+  UserEdge user_edge(int edge) const { return {user(edges_[edge][0]), user(edges_[edge][1])}; }
 
   SmallRegionMesher small_;
   const Mesh* mesh_ = nullptr;
@@ -58,10 +58,10 @@ class RegionMesher {
   Triangulator triangulator_;
   Triangulation triangulation_;
 
-  std::vector<int> local_of_;  // per vertex of the mesh, or none
-  std::vector<int> vertices_;  // the region's, ascending
-  std::vector<Point> points_;  // theirs
-  std::vector<Edge> edges_;    // local: the border, the region to its left; then constrained inner ones
+  std::vector<int> local_of_;     // per vertex of the mesh, or none
+  std::vector<Vertex> vertices_;  // the region's, ascending
+  std::vector<Point> points_;     // theirs
+  std::vector<Edge> edges_;       // local: the border, the region to its left; then constrained inner ones
 
   std::vector<int> inside_;  // triangles of the region
   std::vector<int> number_;  // per triangle: among those inside

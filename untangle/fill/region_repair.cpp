@@ -118,12 +118,12 @@ bool RegionRepair::remesh_rest(const Mesh& mesh, const RepairOptions& options, i
 
 void RegionRepair::enlarge(const Mesh& mesh, int region) {
   if (patches_[region].record.retries > max_rings) {
-    for (int face = 0; face < mesh.n_faces(); ++face) take(face, region);
+    for (const Face face : mesh.faces()) take(face, region);
   } else {
     const auto faces = regions_.faces(region);  // a copy: the set grows
-    for (const int face : faces) {
-      for (const int side : mesh.sides(face)) {
-        const int across = mesh.face_across(side);
+    for (const Face face : faces) {
+      for (const Side side : mesh.sides(face)) {
+        const Face across = mesh.face_across(side);
         if (across != none) take(across, region);
       }
     }
@@ -131,7 +131,7 @@ void RegionRepair::enlarge(const Mesh& mesh, int region) {
   regions_.sort(region);
 }
 
-void RegionRepair::take(int face, int region) {
+void RegionRepair::take(Face face, int region) {
   const int other = regions_.set_of(face);
   if (other == region) return;
   if (other == none) {

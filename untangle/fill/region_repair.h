@@ -69,7 +69,7 @@ class RegionRepair {
   Attempt attempt(const Mesh& mesh, const RepairOptions& options, int region, const Hole& hole);
   bool remesh_rest(const Mesh& mesh, const RepairOptions& options, int region, const Hole& hole);
   void enlarge(const Mesh& mesh, int region);
-  void take(int face, int region);
+  void take(Face face, int region);
 
   FaceSets regions_;
   tbb::enumerable_thread_specific<Worker> workers_;

@@ -12,7 +12,7 @@ RemeshableSet::RemeshableSet(const Mesh& mesh, const FaceSets& sets, int set, st
 }
 
 void RemeshableSet::number_vertices() {
-  for (const int face : faces()) {
+  for (const Face face : faces()) {
     const auto& t = mesh_.triangles()[face];
     vertices_.insert(vertices_.end(), t.begin(), t.end());
   }
@@ -20,11 +20,11 @@ void RemeshableSet::number_vertices() {
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
 }
 
-int RemeshableSet::number(int vertex) const {
+int RemeshableSet::number(Vertex vertex) const {
   return static_cast<int>(std::lower_bound(vertices_.begin(), vertices_.end(), vertex) - vertices_.begin());
 }
 
-Triangle RemeshableSet::corners(int face) const {
+Triangle RemeshableSet::corners(Face face) const {
   const auto& [a, b, c] = mesh_.triangles()[face];
   return {number(a), number(b), number(c)};
 }

@@ -15,14 +15,14 @@ namespace kinemesh {
 class Retention {
  public:
   // Chooses among faces, ascending, with a simple border. False if none can stay.
-  bool run(const Mesh& mesh, const std::vector<int>& faces);
+  bool run(const Mesh& mesh, const std::vector<Face>& faces);
 
-  const FaceSets& rest() const { return rest_; }          // set 0: what has to be replaced, ascending
-  const std::vector<int>& kept() const { return kept_; }  // the others, ascending
+  const FaceSets& rest() const { return rest_; }           // set 0: what has to be replaced, ascending
+  const std::vector<Face>& kept() const { return kept_; }  // the others, ascending
 
  private:
   FaceSets rest_;
-  std::vector<int> kept_;
+  std::vector<Face> kept_;
 };
 
 }  // namespace kinemesh

@@ -15,7 +15,7 @@ using Number = ExactKernel::FT;
 // A place on a crease edge: an end of it (then edge is none), or where a mesh edge crosses it.
 struct Place {
   Number parameter;
-  int edge;
+  Side edge;
 };
 
 // The same edge cuts at the same place; only other ties need exact arithmetic.
@@ -30,7 +30,7 @@ bool is_same(const Place& p, const Place& q) {
 // A part of a crease edge: in the shadow of a face, or in none.
 struct Interval {
   Place low{0, none}, high{1, none};
-  int face = none;
+  Face face;
 };
 
 bool starts_lower(const Interval& i, const Interval& j) {
@@ -40,7 +40,7 @@ bool starts_lower(const Interval& i, const Interval& j) {
 // X to its left.
 struct Crease {
   int from, to;  // vertices
-  int edge;
+  Side edge;
   Point a, b;  // the ends
 };
 
@@ -51,7 +51,7 @@ Number distance(const Point& p0, const Point& p1, const Point& p) {
 }
 
 // Takes away what lies beyond a side, given how far inside of it the ends of the crease edge are.
-void clip(Interval& interval, const Number& at_a, const Number& at_b, int edge) {
+void clip(Interval& interval, const Number& at_a, const Number& at_b, Side edge) {
   if (at_a >= 0 && at_b >= 0) return;
   const Place cut{at_a / (at_a - at_b), edge};
   if (at_b < 0 && is_before(cut, interval.high)) interval.high = cut;
@@ -59,7 +59,7 @@ void clip(Interval& interval, const Number& at_a, const Number& at_b, int edge) 
 }
 
 // The part inside the face's shadow, if any.
-std::optional<Interval> part_inside(const Mesh& mesh, const Crease& crease, int face) {
+std::optional<Interval> part_inside(const Mesh& mesh, const Crease& crease, Face face) {
   const auto corners = mesh.corners(face);
   if (!meets_interior(crease.a, crease.b, std::span(&corners, 1))) return std::nullopt;
   const bool upright = orientation(corners[0], corners[1], corners[2]) == Orientation::CounterClockwise;
@@ -80,10 +80,10 @@ class BorderTracer {
   std::optional<ShadowBorder> run() {
     add_points();
     if (!place_vertices()) return std::nullopt;
-    std::vector<int> inverted;
+    std::vector<Face> inverted;
     for (const auto& [face, over] : set_.over()) inverted.push_back(face);
     index_.build(mesh_, inverted);
-    for (const int face : inverted) {
+    for (const Face face : inverted) {
       if (!trace_face(face)) return std::nullopt;
     }
     return std::move(border_);
@@ -107,15 +107,15 @@ class BorderTracer {
     return true;
   }
 
-  bool trace_face(int inverted) {
-    for (const int side : mesh_.sides(inverted)) {
-      const int across = mesh_.face_across(side);
+  bool trace_face(Face inverted) {
+    for (const Side side : Mesh::sides(inverted)) {
+      const Face across = mesh_.face_across(side);
       if (!set_.is_inverted(across) && !trace_crease(inverted, side)) return false;
     }
     return true;
   }
 
-  bool trace_crease(int inverted, int side) {
+  bool trace_crease(Face inverted, Side side) {
     const auto crease = crease_along(side);
     const auto sheets = sheets_over(crease, inverted);
     const auto parts = uncovered(crease, inverted);
@@ -123,14 +123,14 @@ class BorderTracer {
   }
 
   // An inverted face lies to the right of its sides.
-  Crease crease_along(int side) const {
-    const int from = mesh_.to(side), to = mesh_.from(side);
+  Crease crease_along(Side side) const {
+    const Vertex from = mesh_.to(side), to = mesh_.from(side);
     return {set_.number(from), set_.number(to), mesh_.lower(side), mesh_.position(from), mesh_.position(to)};
   }
 
-  std::vector<Interval> sheets_over(const Crease& crease, int inverted) const {
+  std::vector<Interval> sheets_over(const Crease& crease, Face inverted) const {
     std::vector<Interval> sheets;
-    for (const int face : set_.over().at(inverted)) {
+    for (const Face face : set_.over().at(inverted)) {
       if (set_.is_inverted(face)) continue;
       if (auto sheet = part_inside(mesh_, crease, face)) sheets.push_back(std::move(*sheet));
     }
@@ -139,7 +139,7 @@ class BorderTracer {
   }
 
   // What no other inverted face of J covers, in order.
-  std::vector<Interval> uncovered(const Crease& crease, int inverted) const {
+  std::vector<Interval> uncovered(const Crease& crease, Face inverted) const {
     std::vector<Interval> parts;
     Place reached{0, none};
     const Place end{1, none};
@@ -151,9 +151,9 @@ class BorderTracer {
     return parts;
   }
 
-  std::vector<Interval> covers(const Crease& crease, int inverted) const {
+  std::vector<Interval> covers(const Crease& crease, Face inverted) const {
     std::vector<Interval> covers;
-    index_.any_near(crease.a, crease.b, [&](int other) {
+    index_.any_near(crease.a, crease.b, [&](Face other) {
       auto cover = other == inverted ? std::nullopt : part_inside(mesh_, crease, other);
       if (cover) covers.push_back(std::move(*cover));
       return false;
@@ -176,7 +176,7 @@ class BorderTracer {
     return is_same(reached, part.high);
   }
 
-  void add_sub_segment(const Crease& crease, const Place& low, const Place& high, int face) {
+  void add_sub_segment(const Crease& crease, const Place& low, const Place& high, Face face) {
     const int from = vertex_on(crease, low), to = vertex_on(crease, high);
     border_.subs_of[face].push_back(static_cast<int>(border_.subs.size()));
     border_.subs_along[crease.edge].push_back(static_cast<int>(border_.subs.size()));
@@ -185,7 +185,7 @@ class BorderTracer {
 
   int vertex_on(const Crease& crease, const Place& place) {
     if (place.edge == none) return place.parameter == 0 ? crease.from : crease.to;
-    const auto [it, fresh] = crossings_.try_emplace(std::minmax(crease.edge, place.edge), none);
+    const auto [it, fresh] = crossings_.try_emplace(std::minmax(crease.edge, place.edge), int{none});
     const ExactPoint &a = border_.points[crease.from], &b = border_.points[crease.to];
     if (fresh) it->second = vertex_at(a + place.parameter * (b - a));
     return it->second;
@@ -199,9 +199,9 @@ class BorderTracer {
 
   const RemeshableSet& set_;
   const Mesh& mesh_;
-  ShadowIndex index_;                             // of the inverted faces of J
-  std::map<ExactPoint, int> at_;                  // vertices of J and extra ones by place
-  std::map<std::pair<int, int>, int> crossings_;  // vertices by the two mesh edges, ascending
+  ShadowIndex index_;                               // of the inverted faces of J
+  std::map<ExactPoint, int> at_;                    // vertices of J and extra ones by place
+  std::map<std::pair<Side, Side>, int> crossings_;  // vertices by the two mesh edges, ascending
   ShadowBorder border_;
 };
 

@@ -14,15 +14,15 @@ namespace kinemesh {
 // A part of the border of X, X to its left, as far as one upright face runs across it.
 struct SubSegment {
   int from, to;  // vertices
-  int face;      // of the mesh
-  int crease;    // the mesh edge it lies on, by its lower side
+  Face face;     // of the mesh
+  Side crease;   // the mesh edge it lies on, by its lower side
 };
 
 struct ShadowBorder {
   std::vector<ExactPoint> points;  // by vertex: those of R* by number, then the extra ones
   std::vector<SubSegment> subs;
-  std::map<int, std::vector<int>> subs_of;     // by face: the numbers of its sub-segments
-  std::map<int, std::vector<int>> subs_along;  // likewise, by crease
+  std::map<Face, std::vector<int>> subs_of;     // by face: the numbers of its sub-segments
+  std::map<Side, std::vector<int>> subs_along;  // likewise, by crease
 };
 
 // An end of a sub-segment at the place of a vertex of J is that vertex, any other is an extra one. Nothing if

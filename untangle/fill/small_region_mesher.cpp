@@ -42,7 +42,7 @@ bool SmallRegionMesher::collect(const Mesh& mesh, const Hole& hole) {
   if (n_faces_ > max_faces || !hole.inner_constraints.empty()) return false;
   number_vertices(mesh, hole);
   if (n_vertices_ > max_vertices) return false;
-  std::fill_n(side_from_.begin(), n_vertices_, none);
+  std::fill_n(side_from_.begin(), n_vertices_, Side());
   for (const auto& side : hole.border) {
     const int from = local(side.from);
     if (side_from_[from] != none) return false;  // a pinch
@@ -53,13 +53,13 @@ bool SmallRegionMesher::collect(const Mesh& mesh, const Hole& hole) {
 }
 
 void SmallRegionMesher::number_vertices(const Mesh& mesh, const Hole& hole) {
-  std::array<int, 3 * max_faces> corners;
+  std::array<Vertex, 3 * max_faces> corners;
   auto end = corners.begin();
   constexpr int n_recent = 64;
-  std::array<int, n_recent> recent;  // most that come again are here
+  std::array<Vertex, n_recent> recent;  // most that come again are here
   recent.fill(none);
-  for (const int face : hole.faces) {
-    for (const int v : mesh.triangles()[face]) {
+  for (const Face face : hole.faces) {
+    for (const Vertex v : mesh.triangles()[face]) {
       if (std::exchange(recent[v % n_recent], v) != v) *end++ = v;
     }
   }
@@ -71,14 +71,14 @@ void SmallRegionMesher::number_vertices(const Mesh& mesh, const Hole& hole) {
   for (int v = 0; v < n_vertices_; ++v) points_[v] = mesh.position(vertices_[v]);
 }
 
-int SmallRegionMesher::local(int vertex) const {
+int SmallRegionMesher::local(Vertex vertex) const {
   const auto end = vertices_.begin() + n_vertices_;
   return static_cast<int>(std::lower_bound(vertices_.begin(), end, vertex) - vertices_.begin());
 }
 
 // False unless the border is one loop around a disc.
 bool SmallRegionMesher::trace_border() {
-  const auto is_on_border = [](int side) { return side != none; };
+  const auto is_on_border = [](Side side) { return side != none; };
   const auto end = side_from_.begin() + n_vertices_;
   const auto n_border = static_cast<int>(std::count_if(side_from_.begin(), end, is_on_border));
   if (n_border + 2 * (n_vertices_ - n_border) - 2 != n_faces_) return false;
@@ -271,7 +271,7 @@ void SmallRegionMesher::flip_if_better(int side) {
   if (back < 0) return;
   const int a = start_[side], b = start_[back];
   const int c = start_[preceding(side)], d = start_[preceding(back)];
-  if (in_circle(points_[a], points_[b], points_[c], points_[d]) != Side::Inside) return;
+  if (in_circle(points_[a], points_[b], points_[c], points_[d]) != InCircle::Inside) return;
   const int bc = across_[following(side)], ca = across_[preceding(side)];
   const int ad = across_[following(back)], db = across_[preceding(back)];
   const int face = side / 3, other = back / 3;
@@ -300,7 +300,8 @@ void SmallRegionMesher::set(int face, const Triangle& corners, const Triangle& a
 void SmallRegionMesher::convert() {
   new_faces_.clear();
   for (int face = 0; face < n_new_; ++face) {
-    Triangle corners, neighbours;
+    MeshTriangle corners;
+    Triangle neighbours;
     for (int k = 0; k < 3; ++k) {
       const int across = across_[3 * face + k];
       corners[k] = vertices_[start_[3 * face + k]];

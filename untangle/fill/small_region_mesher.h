@@ -38,7 +38,7 @@ class SmallRegionMesher {
 
   bool collect(const Mesh& mesh, const Hole& hole);
   void number_vertices(const Mesh& mesh, const Hole& hole);
-  int local(int vertex) const;
+  int local(Vertex vertex) const;
   bool trace_border();
   bool is_border_simple() const;
   bool is_counter_clockwise() const;
@@ -64,9 +64,9 @@ class SmallRegionMesher {
   void convert();
 
   int n_faces_ = 0, n_vertices_ = 0;           // of the region
-  std::array<int, max_vertices> vertices_;     // of the mesh, ascending
+  std::array<Vertex, max_vertices> vertices_;  // of the mesh, ascending
   std::array<Point, max_vertices> points_;     // theirs
-  std::array<int, max_vertices> side_from_;    // of the border, by where it leaves; none inside
+  std::array<Side, max_vertices> side_from_;   // of the border, by where it leaves; none inside
   std::array<int, max_vertices> border_next_;  // the vertex it goes to
 
   std::vector<Tip> loop_;

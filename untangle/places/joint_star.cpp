@@ -100,44 +100,44 @@ class InverseHessian {
 
 }  // namespace
 
-JointStar::JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge)
+JointStar::JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices, Side flipped_edge)
     : scale_(vertices.size(), 0.0), tangent_(infinite) {
   for (const auto& [v, along] : vertices) {
     start_.push_back(mesh.position(v));
     along_.push_back(along);
   }
   list_faces(mesh, vertices, flipped_edge);
-  for (const int face : faces_)
+  for (const Face face : faces_)
     if (!mesh.is_padding(face)) tangent_ = std::min(tangent_, tangent_from_any_corner(mesh.corners(face)));
   list_triangles(mesh, vertices, flipped_edge);
   measure_scale();
 }
 
-void JointStar::list_faces(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge) {
+void JointStar::list_faces(const Mesh& mesh, std::span<const FreeVertex> vertices, Side flipped_edge) {
   for (const auto& free : vertices)
-    for_each_side_from(mesh, free.vertex, [&](int side) { faces_.push_back(Mesh::face_of(side)); });
+    for_each_side_from(mesh, free.vertex, [&](Side side) { faces_.push_back(Mesh::face_of(side)); });
   if (flipped_edge != none)
-    for (const int side : {flipped_edge, mesh.opposite(flipped_edge)}) faces_.push_back(Mesh::face_of(side));
+    for (const Side side : {flipped_edge, mesh.opposite(flipped_edge)}) faces_.push_back(Mesh::face_of(side));
   std::ranges::sort(faces_);
   faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
 }
 
-void JointStar::list_triangles(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge) {
-  const auto user = [&](int v) { return mesh.user_vertex(v); };
-  const auto corner = [&](int v) {
+void JointStar::list_triangles(const Mesh& mesh, std::span<const FreeVertex> vertices, Side flipped_edge) {
+  const auto user = [&](Vertex v) { return mesh.user_vertex(v); };
+  const auto corner = [&](Vertex v) {
     const auto of_free = [&](const FreeVertex& free) { return user(free.vertex); };
     const auto found = std::ranges::lower_bound(vertices, user(v), {}, of_free);
     const bool is_free = found != vertices.end() && found->vertex == v;
     return Corner{is_free ? static_cast<int>(found - vertices.begin()) : none, mesh.position(v)};
   };
-  std::vector<std::array<int, 3>> of_domain;  // vertices, the lowest user's number first
-  const auto list = [&](std::array<int, 3> v, bool is_padding) {
+  std::vector<MeshTriangle> of_domain;  // the lowest user's number first
+  const auto list = [&](MeshTriangle v, bool is_padding) {
     if (is_padding) return padding_.push_back({corner(v[0]), corner(v[1]), corner(v[2])});
     std::rotate(v.begin(), std::ranges::min_element(v, {}, user), v.end());
     of_domain.push_back(v);
   };
-  for (const int face : faces_) {
-    const auto is_flipped = [&](int side) { return mesh.lower(side) == flipped_edge; };
+  for (const Face face : faces_) {
+    const auto is_flipped = [&](Side side) { return mesh.lower(side) == flipped_edge; };
     const auto sides = Mesh::sides(face);
     if (const auto h = std::ranges::find_if(sides, is_flipped); h != sides.end())
       list({mesh.from(*h), mesh.apex(mesh.opposite(*h)), mesh.apex(*h)}, mesh.is_padding(face));

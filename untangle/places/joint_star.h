@@ -13,7 +13,7 @@ namespace kinemesh {
 
 // A vertex that may move: in the plane, or along a unit vector if `along` is not 0.
 struct FreeVertex {
-  int vertex;
+  Vertex vertex;
   Point along{0.0, 0.0};
 };
 
@@ -24,10 +24,10 @@ class JointStar {
  public:
   // As if the edge were flipped, if there is one. Pre: a valid mesh, and a valid one if it were; vertices are
   // ascending by users' numbers, none comes twice.
-  JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge = none);
+  JointStar(const Mesh& mesh, std::span<const FreeVertex> vertices, Side flipped_edge = none);
 
   // Around the vertices and beside the edge, padding included.
-  std::span<const int> faces() const { return faces_; }
+  std::span<const Face> faces() const { return faces_; }
 
   // The tangent of the smallest angle of the domain's faces, with the vertices at these places; infinity if
   // there are none. Rounded.
@@ -57,8 +57,8 @@ class JointStar {
     double energy = 0.0;
   };
 
-  void list_faces(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge);
-  void list_triangles(const Mesh& mesh, std::span<const FreeVertex> vertices, int flipped_edge);
+  void list_faces(const Mesh& mesh, std::span<const FreeVertex> vertices, Side flipped_edge);
+  void list_triangles(const Mesh& mesh, std::span<const FreeVertex> vertices, Side flipped_edge);
   void measure_scale();
   std::array<Point, 3> corners_at(const Triangle& triangle, std::span<const Point> places) const;
   double energy_at(std::span<const Point> places, std::span<Point> gradient) const;
@@ -67,7 +67,7 @@ class JointStar {
 
   std::vector<Point> start_, along_;
   std::vector<double> scale_;  // per vertex: the mean square of the lengths of its edges
-  std::vector<int> faces_;
+  std::vector<Face> faces_;
   double tangent_;
   std::vector<Triangle> triangles_;  // of the domain, in an order of the users' numbers
   std::vector<Triangle> padding_;

@@ -52,8 +52,8 @@ double tangent_from_any_corner(const std::array<Point, 3>& p) {
   return tangent_of_smallest_angle({p[first], p[(first + 1) % 3], p[(first + 2) % 3]});
 }
 
-Star::Star(const Mesh& mesh, int vertex) : x_(mesh.position(vertex)) {
-  for_each_neighbour(mesh, vertex, [&](int neighbour, int side) {
+Star::Star(const Mesh& mesh, Vertex vertex) : x_(mesh.position(vertex)) {
+  for_each_neighbour(mesh, vertex, [&](Vertex neighbour, Side side) {
     const Point& end = mesh.position(neighbour);
     if (mesh.has_constraint(side)) constrained_.push_back(end);
     if (mesh.opposite(side) == none) is_on_hull_ = true;

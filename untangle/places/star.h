@@ -4,7 +4,7 @@
 #include <boost/container/small_vector.hpp>
 #include <optional>
 
-#include "core/base/polyline.h"
+#include "kinemesh/detail/polyline.h"
 #include "kinemesh/mesh.h"
 #include "untangle/places/optimal_point.h"
 
@@ -18,7 +18,7 @@ double tangent_from_any_corner(const std::array<Point, 3>& corners);
 // the fan begins. Takes memory for vertices of very many faces only.
 class Star {
  public:
-  Star(const Mesh& mesh, int vertex);
+  Star(const Mesh& mesh, Vertex vertex);
 
   // The tangent of the smallest angle of the domain's faces, were the vertex at x: 0 if one is not upright,
   // as far as rounding tells; infinity if there are none. Rounded.

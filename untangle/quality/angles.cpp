@@ -54,18 +54,18 @@ const AngleOptions& checked(const AngleOptions& options) {
 
 // Calls visit(face) for those that a flip of the edge rewrites, or a move of the vertex changes.
 template <class Visit>
-void for_each_beside(const Mesh& mesh, int edge, const Visit& visit) {
+void for_each_beside(const Mesh& mesh, Side edge, const Visit& visit) {
   visit(Mesh::face_of(edge));
   visit(mesh.face_across(edge));
 }
 
 template <class Visit>
-void for_each_around(const Mesh& mesh, int vertex, const Visit& visit) {
-  for_each_side_from(mesh, vertex, [&](int side) { visit(Mesh::face_of(side)); });
+void for_each_around(const Mesh& mesh, Vertex vertex, const Visit& visit) {
+  for_each_side_from(mesh, vertex, [&](Side side) { visit(Mesh::face_of(side)); });
 }
 
 // Of the edge's ends, ascending.
-std::pair<int, int> users_of(const Mesh& mesh, int side) {
+std::pair<UserVertex, UserVertex> users_of(const Mesh& mesh, Side side) {
   return std::minmax({mesh.user_vertex(mesh.from(side)), mesh.user_vertex(mesh.to(side))});
 }
 
@@ -75,7 +75,7 @@ struct FlipTangents {
   double before, after;
 };
 
-FlipTangents tangents_of_flip(const Mesh& mesh, int edge) {
+FlipTangents tangents_of_flip(const Mesh& mesh, Side edge) {
   const Point &p = mesh.position(mesh.from(edge)), &q = mesh.position(mesh.to(edge));
   const Point &left = mesh.position(mesh.apex(edge)), &right = mesh.position(mesh.apex(mesh.opposite(edge)));
   const auto smaller = [](const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
@@ -128,7 +128,7 @@ AngleCounts AngleUpkeep::run(Mesh& mesh, FaceMinima* minima) noexcept {
 }
 
 void AngleUpkeep::forget() {
-  for (const int face : flipped_) is_flipped_[face] = false;
+  for (const Face face : flipped_) is_flipped_[face] = false;
   for (const auto& moved : moved_) is_moved_[moved.vertex] = false;
   for (const Place& place : places_) place_of_[place.vertex] = none;
   bad_.clear();
@@ -139,7 +139,7 @@ void AngleUpkeep::forget() {
   joints_.clear();
 }
 
-bool AngleUpkeep::is_bad(const Mesh& mesh, int face) const {
+bool AngleUpkeep::is_bad(const Mesh& mesh, Face face) const {
   return !mesh.is_padding(face) && tangent_from_any_corner(mesh.corners(face)) < wanted_;
 }
 
@@ -147,7 +147,7 @@ void AngleUpkeep::find_bad(const Mesh& mesh, FaceMinima& minima) {
   if (!(minima.update(mesh).tangent < wanted_ + rounding)) return;
   for (int begin = 0, n = mesh.n_faces(); begin < n; begin += stretch_faces) {
     if (!(minima.of_stretch(begin / stretch_faces).tangent < wanted_ + rounding)) continue;
-    for (int face = begin; face < std::min(begin + stretch_faces, n); ++face)
+    for (Face face{begin}; face < std::min(begin + stretch_faces, n); ++face)
       if (is_bad(mesh, face)) bad_.push_back(face);
   }
 }
@@ -164,8 +164,8 @@ bool AngleUpkeep::do_round(Mesh& mesh, AngleCounts& counts) {
 }
 
 void AngleUpkeep::propose(const Mesh& mesh) {
-  for (const int face : bad_)
-    for (const int v : mesh.triangles()[face]) ask_for_place(mesh, v);
+  for (const Face face : bad_)
+    for (const Vertex v : mesh.triangles()[face]) ask_for_place(mesh, v);
   find_places(mesh);
   proposals_.resize(bad_.size());
   for_all(static_cast<int>(bad_.size()), grain::places,
@@ -177,17 +177,17 @@ void AngleUpkeep::propose(const Mesh& mesh) {
 void AngleUpkeep::propose_jointly(const Mesh& mesh) {
   std::erase_if(joints_, [&](const auto& entry) { return is_outdated(entry.second); });
   std::vector<Joint*> asked;
-  for (const int face : bad_)
+  for (const Face face : bad_)
     if (const auto [at, is_new] = joints_.try_emplace(face, Joint{.face = face}); is_new)
       asked.push_back(&at->second);
   for_all(static_cast<int>(asked.size()), 1, [&](int i) { find_joint(mesh, *asked[i]); });
-  for (const int face : bad_)
+  for (const Face face : bad_)
     if (const Joint& joint = joints_.at(face); joint.after != 0.0)
       proposals_.push_back(proposal_of(mesh, joint));
 }
 
 bool AngleUpkeep::is_outdated(const Joint& joint) const {
-  const auto has_changed = [&](int face) { return round_[face] > joint.round; };
+  const auto has_changed = [&](Face face) { return round_[face] > joint.round; };
   return has_changed(joint.face) || std::ranges::any_of(joint.faces, has_changed);
 }
 
@@ -201,17 +201,17 @@ void AngleUpkeep::find_joint(const Mesh& mesh, Joint& joint) const {
     if (joint.before < own) break;
   }
   const auto free = free_vertices_around(mesh, joint.face, rings.front());
-  auto sides = mesh.sides(joint.face);
-  std::ranges::sort(sides, {}, [&](int side) { return users_of(mesh, side); });
-  for (const int side : sides) {
-    const int edge = mesh.lower(side);
+  auto sides = Mesh::sides(joint.face);
+  std::ranges::sort(sides, {}, [&](Side side) { return users_of(mesh, side); });
+  for (const Side side : sides) {
+    const Side edge = mesh.lower(side);
     const bool may_flip = mesh.is_flippable(edge) && tangents_of_flip(mesh, edge).after > 0.0;
     if (may_flip && try_joint(mesh, free, edge, joint)) return;
   }
 }
 
 // True if it helps.
-bool AngleUpkeep::try_joint(const Mesh& mesh, std::span<const FreeVertex> free, int edge,
+bool AngleUpkeep::try_joint(const Mesh& mesh, std::span<const FreeVertex> free, Side edge,
                             Joint& joint) const {
   const JointStar star(mesh, free, edge);
   joint.faces.assign(star.faces().begin(), star.faces().end());
@@ -227,12 +227,12 @@ bool AngleUpkeep::try_joint(const Mesh& mesh, std::span<const FreeVertex> free, 
 }
 
 // Ascending by users' numbers.
-std::vector<FreeVertex> AngleUpkeep::free_vertices_around(const Mesh& mesh, int face, int n_rings) const {
-  const auto user = [&](int v) { return mesh.user_vertex(v); };
-  std::vector<int> vertices(mesh.triangles()[face].begin(), mesh.triangles()[face].end());
+std::vector<FreeVertex> AngleUpkeep::free_vertices_around(const Mesh& mesh, Face face, int n_rings) const {
+  const auto user = [&](Vertex v) { return mesh.user_vertex(v); };
+  std::vector<Vertex> vertices(mesh.triangles()[face].begin(), mesh.triangles()[face].end());
   for (int ring = 0; ring < n_rings; ++ring) {
     for (std::size_t i = 0, n = vertices.size(); i < n; ++i)
-      for_each_around(mesh, vertices[i], [&](int f) {
+      for_each_around(mesh, vertices[i], [&](Face f) {
         if (!mesh.is_padding(f))
           vertices.insert(vertices.end(), mesh.triangles()[f].begin(), mesh.triangles()[f].end());
       });
@@ -240,7 +240,7 @@ std::vector<FreeVertex> AngleUpkeep::free_vertices_around(const Mesh& mesh, int 
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   }
   std::vector<FreeVertex> free;
-  for (const int v : vertices) {
+  for (const Vertex v : vertices) {
     const Freedom freedom = freedom_of(mesh, v);
     if (freedom == Freedom::Plane) free.push_back({v});
     if (freedom == Freedom::Line && Star(mesh, v).may_move_along(freedom_.tangents.at(v)))
@@ -250,7 +250,7 @@ std::vector<FreeVertex> AngleUpkeep::free_vertices_around(const Mesh& mesh, int 
 }
 
 // Once for each vertex, until something around it changes.
-void AngleUpkeep::ask_for_place(const Mesh& mesh, int vertex) {
+void AngleUpkeep::ask_for_place(const Mesh& mesh, Vertex vertex) {
   if (place_of_[vertex] != none || freedom_of(mesh, vertex) == Freedom::None) return;
   places_.push_back({.vertex = vertex});
   place_of_[vertex] = static_cast<int>(places_.size()) - 1;
@@ -262,7 +262,7 @@ void AngleUpkeep::find_places(const Mesh& mesh) {
   n_found_ = places_.size();
 }
 
-AngleUpkeep::Freedom AngleUpkeep::freedom_of(const Mesh& mesh, int v) const {
+AngleUpkeep::Freedom AngleUpkeep::freedom_of(const Mesh& mesh, Vertex v) const {
   if (mesh.is_fixed(v) || mesh.user_vertex(v) == none) return Freedom::None;
   if (!freedom_.held.empty() && freedom_.held[v]) return Freedom::None;
   if (!stays_.empty() && stays_[v]) return Freedom::None;
@@ -271,7 +271,7 @@ AngleUpkeep::Freedom AngleUpkeep::freedom_of(const Mesh& mesh, int v) const {
   return is_movable(mesh, v) ? Freedom::Plane : Freedom::None;
 }
 
-std::optional<Point> AngleUpkeep::best_place(const Mesh& mesh, int v, const Star& star) const {
+std::optional<Point> AngleUpkeep::best_place(const Mesh& mesh, Vertex v, const Star& star) const {
   switch (freedom_of(mesh, v)) {
     case Freedom::None:
       return std::nullopt;
@@ -286,7 +286,7 @@ std::optional<Point> AngleUpkeep::best_place(const Mesh& mesh, int v, const Star
 }
 
 void AngleUpkeep::find_place(const Mesh& mesh, Place& place) const {
-  const int v = place.vertex;
+  const Vertex v = place.vertex;
   const Star star(mesh, v);
   place.before = star.tangent_at(mesh.position(v));
   const std::optional<Point> where = best_place(mesh, v, star);
@@ -310,7 +310,7 @@ AngleUpkeep::Proposal AngleUpkeep::better(const Proposal& a, const Proposal& b) 
   return a.is_none() || (!b.is_none() && b.is_preferred_to(a)) ? b : a;
 }
 
-AngleUpkeep::Proposal AngleUpkeep::move_of(const Mesh& mesh, int vertex) const {
+AngleUpkeep::Proposal AngleUpkeep::move_of(const Mesh& mesh, Vertex vertex) const {
   const int number = place_of_[vertex];
   if (number == none || places_[number].after == 0.0) return {};
   const Place& place = places_[number];
@@ -320,15 +320,15 @@ AngleUpkeep::Proposal AngleUpkeep::move_of(const Mesh& mesh, int vertex) const {
           .place = number};
 }
 
-AngleUpkeep::Proposal AngleUpkeep::best_at(const Mesh& mesh, int face) const {
+AngleUpkeep::Proposal AngleUpkeep::best_at(const Mesh& mesh, Face face) const {
   Proposal best;
-  for (const int v : mesh.triangles()[face]) best = better(best, move_of(mesh, v));
-  for (const int side : Mesh::sides(face)) best = better(best, flip_of(mesh, side));
+  for (const Vertex v : mesh.triangles()[face]) best = better(best, move_of(mesh, v));
+  for (const Side side : Mesh::sides(face)) best = better(best, flip_of(mesh, side));
   return best;
 }
 
-AngleUpkeep::Proposal AngleUpkeep::flip_of(const Mesh& mesh, int side) const {
-  const int edge = mesh.lower(side);
+AngleUpkeep::Proposal AngleUpkeep::flip_of(const Mesh& mesh, Side side) const {
+  const Side edge = mesh.lower(side);
   if (!mesh.is_flippable(edge)) return {};
   const auto [before, after] = tangents_of_flip(mesh, edge);
   if (!is_better(after, before)) return {};
@@ -337,8 +337,8 @@ AngleUpkeep::Proposal AngleUpkeep::flip_of(const Mesh& mesh, int side) const {
 }
 
 AngleUpkeep::Proposal AngleUpkeep::proposal_of(const Mesh& mesh, const Joint& joint) const {
-  std::array<int, 3> users = mesh.triangles()[joint.face];
-  for (int& v : users) v = mesh.user_vertex(v);
+  const auto& [a, b, c] = mesh.triangles()[joint.face];
+  std::array users{mesh.user_vertex(a), mesh.user_vertex(b), mesh.user_vertex(c)};
   std::ranges::sort(users);
   return {.before = joint.before, .after = joint.after, .users = users, .edge = joint.edge, .joint = &joint};
 }
@@ -363,9 +363,9 @@ bool AngleUpkeep::take(const Mesh& mesh, const Proposal& proposal) {
       for_each_around(mesh, places_[proposal.place].vertex, visit);
   };
   bool is_free = true;
-  for_each_touched([&](int face) { is_free &= round_[face] != n_rounds_; });
+  for_each_touched([&](Face face) { is_free &= round_[face] != n_rounds_; });
   if (!is_free) return false;
-  for_each_touched([&](int face) {
+  for_each_touched([&](Face face) {
     round_[face] = n_rounds_;
     touched_.push_back(face);
   });
@@ -402,8 +402,8 @@ void AngleUpkeep::move(Mesh& mesh, const Place& place) noexcept {
   position = place.where;
 }
 
-void AngleUpkeep::flip(Mesh& mesh, int edge) noexcept {
-  for_each_beside(mesh, edge, [&](int face) {
+void AngleUpkeep::flip(Mesh& mesh, Side edge) noexcept {
+  for_each_beside(mesh, edge, [&](Face face) {
     if (!std::exchange(is_flipped_[face], true)) flipped_.push_back(face);
   });
   mesh.flip(edge);
@@ -411,16 +411,16 @@ void AngleUpkeep::flip(Mesh& mesh, int edge) noexcept {
 
 // The corners of the faces touched are all whose faces have changed.
 void AngleUpkeep::find_still_bad(const Mesh& mesh) {
-  for (const int face : touched_)
-    for (const int v : mesh.triangles()[face]) place_of_[v] = none;
-  std::erase_if(bad_, [&](int face) { return round_[face] == n_rounds_; });
-  for (const int face : touched_)
+  for (const Face face : touched_)
+    for (const Vertex v : mesh.triangles()[face]) place_of_[v] = none;
+  std::erase_if(bad_, [&](Face face) { return round_[face] == n_rounds_; });
+  for (const Face face : touched_)
     if (is_bad(mesh, face)) bad_.push_back(face);
 }
 
 AngleOutcome improve_angles(Mesh& mesh, const AngleOptions& options, const VertexFreedom& freedom) {
   AngleUpkeep upkeep(mesh, options, freedom);
-  for (int face = 0; face < mesh.n_faces(); ++face)
+  for (const Face face : mesh.faces())
     if (!is_upright(mesh, face))
       throw InputError("face " + std::to_string(mesh.user_face(face)) + " is not upright");
   AngleOutcome outcome;

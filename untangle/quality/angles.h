@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/sweep/face_minima.h"
+#include "kinemesh/detail/vertex_freedom.h"
 #include "kinemesh/mesh.h"
 #include "untangle/places/joint_star.h"
 #include "untangle/places/star.h"
 #include "untangle/quality/quality_pass.h"
-#include "untangle/quality/vertex_freedom.h"
 
 namespace kinemesh {
 
@@ -63,34 +63,34 @@ class AngleUpkeep : public QualityPass {
 
   QualityCounts improve(Mesh& mesh, const QualityInputs& inputs) override;
   bool moves_vertices() const override { return true; }
-  std::span<const int> flipped_faces() const override { return flipped_; }
+  std::span<const Face> flipped_faces() const override { return flipped_; }
   std::span<const MovedVertex> moved_vertices() const override { return moved_; }
 
  private:
   // Where a vertex should go. Angles by their tangents, of the smallest among the faces touched.
   struct Place {
-    int vertex;
+    Vertex vertex;
     Point where{0.0, 0.0};
     double before = 0.0, after = 0.0;
   };
 
   // Where the vertices around a bad face should go together.
   struct Joint {
-    int face;
+    Face face;
     int round = 0;  // after which this was found
-    std::vector<int>
-        faces{};      // that the last try has looked at: while they are as they were, it is left at that
-    int edge = none;  // to be flipped besides; its lower side
+    std::vector<Face>
+        faces{};  // that the last try has looked at: while they are as they were, it is left at that
+    Side edge{};  // to be flipped besides; its lower side
     std::vector<Place> moves{};
     double before = 0.0, after = 0.0;  // after is 0 if nothing helps
   };
 
   struct Proposal {
     double before = 0.0, after = 0.0;
-    std::array<int, 3> users{none, none, none};  // of the vertex, the edge or the face, ascending at the end
-    int edge = none;                             // to be flipped; its lower side
-    int place = none;                            // or where to move
-    const Joint* joint = nullptr;                // or where several move
+    UserTriangle users{};          // of the vertex, the edge or the face, ascending at the end
+    Side edge{};                   // to be flipped; its lower side
+    int place = none;              // or where to move
+    const Joint* joint = nullptr;  // or where several move
 
     bool is_none() const { return users[2] == none; }
     bool comes_before(const Proposal& other) const;  // by their keys
@@ -102,29 +102,29 @@ class AngleUpkeep : public QualityPass {
 
   void forget();
   void find_bad(const Mesh& mesh, FaceMinima& minima);
-  bool is_bad(const Mesh& mesh, int face) const;
+  bool is_bad(const Mesh& mesh, Face face) const;
   bool do_round(Mesh& mesh, AngleCounts& counts);
   void propose(const Mesh& mesh);
   void propose_jointly(const Mesh& mesh);
   bool is_outdated(const Joint& joint) const;
   void find_joint(const Mesh& mesh, Joint& joint) const;
-  bool try_joint(const Mesh& mesh, std::span<const FreeVertex> free, int edge, Joint& joint) const;
-  std::vector<FreeVertex> free_vertices_around(const Mesh& mesh, int face, int n_rings) const;
+  bool try_joint(const Mesh& mesh, std::span<const FreeVertex> free, Side edge, Joint& joint) const;
+  std::vector<FreeVertex> free_vertices_around(const Mesh& mesh, Face face, int n_rings) const;
   void find_places(const Mesh& mesh);
-  void ask_for_place(const Mesh& mesh, int vertex);
-  Freedom freedom_of(const Mesh& mesh, int vertex) const;
-  std::optional<Point> best_place(const Mesh& mesh, int vertex, const Star& star) const;
+  void ask_for_place(const Mesh& mesh, Vertex vertex);
+  Freedom freedom_of(const Mesh& mesh, Vertex vertex) const;
+  std::optional<Point> best_place(const Mesh& mesh, Vertex vertex, const Star& star) const;
   void find_place(const Mesh& mesh, Place& place) const;
-  Proposal best_at(const Mesh& mesh, int face) const;
-  Proposal flip_of(const Mesh& mesh, int side) const;
-  Proposal move_of(const Mesh& mesh, int vertex) const;
+  Proposal best_at(const Mesh& mesh, Face face) const;
+  Proposal flip_of(const Mesh& mesh, Side side) const;
+  Proposal move_of(const Mesh& mesh, Vertex vertex) const;
   Proposal proposal_of(const Mesh& mesh, const Joint& joint) const;
   void choose(const Mesh& mesh);
   bool take(const Mesh& mesh, const Proposal& proposal);
   void carry_out(Mesh& mesh, AngleCounts& counts);
   std::span<const Place> moves_of(const Proposal& proposal) const;
   void move(Mesh& mesh, const Place& place) noexcept;
-  void flip(Mesh& mesh, int edge) noexcept;
+  void flip(Mesh& mesh, Side edge) noexcept;
   void find_still_bad(const Mesh& mesh);
 
   AngleOptions options_;
@@ -133,20 +133,20 @@ class AngleUpkeep : public QualityPass {
   double wanted_;                // tangent
   FaceMinima own_minima_;
 
-  std::vector<int> bad_;  // faces
+  std::vector<Face> bad_;
   std::vector<Proposal> proposals_;
   std::vector<Proposal> winners_;
-  std::vector<int> touched_;  // by the winners: faces
-  std::vector<int> round_;    // per face: the last in which a winner has touched it
+  std::vector<Face> touched_;  // by the winners
+  std::vector<int> round_;     // per face: the last in which a winner has touched it
   int n_rounds_ = 0;
 
   std::vector<Place> places_;  // that somebody has asked for
   std::vector<int> place_of_;  // per vertex: the number of its place as things are; or none
   std::size_t n_found_ = 0;    // places, the first ones
 
-  std::map<int, Joint> joints_;  // by the bad face; since all were stuck for the first time
+  std::map<Face, Joint> joints_;  // by the bad face; since all were stuck for the first time
 
-  std::vector<int> flipped_;      // faces
+  std::vector<Face> flipped_;
   std::vector<char> is_flipped_;  // per face
   std::vector<MovedVertex> moved_;
   std::vector<char> is_moved_;  // per vertex

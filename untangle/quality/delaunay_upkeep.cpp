@@ -16,10 +16,10 @@ namespace {
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 // True of constrained edges and those of the hull.
-bool is_locally_delaunay(const Mesh& mesh, int side) {
+bool is_locally_delaunay(const Mesh& mesh, Side side) {
   if (!mesh.is_flippable(side)) return true;
   const auto [a, b, c] = mesh.corners(Mesh::face_of(side));
-  return in_circle(a, b, c, mesh.position(mesh.apex(mesh.opposite(side)))) != Side::Inside;
+  return in_circle(a, b, c, mesh.position(mesh.apex(mesh.opposite(side)))) != InCircle::Inside;
 }
 
 // Of an edge of a changed face; not if it is proved to be locally Delaunay. Forgets what is known of it, so
@@ -31,17 +31,17 @@ bool needs_judgement(float& left, float& right) {
   return !is_proved;
 }
 
-// Calls f(i) for 0 <= i < n in all threads; where there is no memory left to start them, in this one. So f
+// Calls f(i) for all of them in all threads; where there is no memory left to start them, in this one. So f
 // may come twice for an i.
-template <class F>
-void for_all(int n, const F& f) {
+template <class Number, class F>
+void for_all(Numbers<Number> all, const F& f) {
   const auto sweep = [&](int, int begin, int end) {
-    for (int i = begin; i != end; ++i) f(i);
+    for (Number i(begin); i != end; ++i) f(i);
   };
   try {
-    parallel_parts(n, 1 << 14, sweep);
+    parallel_parts(all.size(), 1 << 14, sweep);
   } catch (const std::bad_alloc&) {
-    sweep(0, 0, n);
+    sweep(0, 0, all.size());
   }
 }
 
@@ -70,40 +70,40 @@ void DelaunayUpkeep::find_changed_faces(const Mesh& mesh, std::span<const Point>
     return;
   }
   const Point* const now = mesh.positions().data();
-  const Triangle* const triangles = mesh.triangles().data();
-  for_all(mesh.n_vertices(), [&](int v) { has_moved_[v] = now[v] != before[v]; });
-  for_all(mesh.n_faces(), [&](int f) {
+  const MeshTriangle* const triangles = mesh.triangles().data();
+  for_all(mesh.vertices(), [&](Vertex v) { has_moved_[v] = now[v] != before[v]; });
+  for_all(mesh.faces(), [&](Face f) {
     const auto& [a, b, c] = triangles[f];
     has_changed_[f] = has_moved_[a] | has_moved_[b] | has_moved_[c];
   });
   for (const auto& region : replaced)
-    for (const int face : region.faces) has_changed_[face] = true;
+    for (const Face face : region.faces) has_changed_[face] = true;
 }
 
 void DelaunayUpkeep::find_wrong_edges(const Mesh& mesh) {
-  for_all(mesh.n_faces(), [&](int f) {
+  for_all(mesh.faces(), [&](Face f) {
     if (has_changed_[f]) bound_angles(mesh, f);
   });
-  for_all(mesh.n_faces(),
-          [&](int f) { is_wrong_[f] = static_cast<char>(is_wrong_[f] | wrong_sides(mesh, f)); });
+  for_all(mesh.faces(),
+          [&](Face f) { is_wrong_[f] = static_cast<char>(is_wrong_[f] | wrong_sides(mesh, f)); });
   wrong_.clear();
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     for (int k = 0; k < 3; ++k)
       if ((is_wrong_[f] & 1 << k) != 0) wrong_.push_back(Mesh::side(f, k));
     is_wrong_[f] = 0;
   }
 }
 
-void DelaunayUpkeep::bound_angles(const Mesh& mesh, int face) {
+void DelaunayUpkeep::bound_angles(const Mesh& mesh, Face face) {
   fetch_ahead(mesh.triangles(), mesh.positions(), face);
   cotangent_[face] = cotangent_bounds(mesh.corners(face));
 }
 
 // Bit k: side k is the lower one of its edge, which has been judged and is wrong.
-char DelaunayUpkeep::wrong_sides(const Mesh& mesh, int face) {
+char DelaunayUpkeep::wrong_sides(const Mesh& mesh, Face face) {
   int wrong = 0;
-  for (const int side : Mesh::sides(face)) {
-    const int across = mesh.opposite(side);
+  for (const Side side : Mesh::sides(face)) {
+    const Side across = mesh.opposite(side);
     if (across < side) continue;  // the hull is always right
     float& left = cotangent_[face][Mesh::corner_of(side)];
     float& right = cotangent_[Mesh::face_of(across)][Mesh::corner_of(across)];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+
 #include "kinemesh/delaunay.h"
 #include "untangle/quality/quality_pass.h"
 
@@ -18,14 +19,14 @@ class DelaunayUpkeep : public QualityPass {
   explicit DelaunayUpkeep(const Mesh& mesh);
 
   QualityCounts improve(Mesh& mesh, const QualityInputs& inputs) override;
-  std::span<const int> flipped_faces() const override { return flipping_.flipped_faces(); }
+  std::span<const Face> flipped_faces() const override { return flipping_.flipped_faces(); }
 
  private:
   void find_changed_faces(const Mesh& mesh, std::span<const Point> before,
                           std::span<const RegionRecord> replaced);
   void find_wrong_edges(const Mesh& mesh);
-  void bound_angles(const Mesh& mesh, int face);
-  char wrong_sides(const Mesh& mesh, int face);
+  void bound_angles(const Mesh& mesh, Face face);
+  char wrong_sides(const Mesh& mesh, Face face);
 
   DelaunayFlipping flipping_;
   std::vector<char> has_moved_;    // per vertex
@@ -33,8 +34,8 @@ class DelaunayUpkeep : public QualityPass {
   std::vector<std::array<float, 3>>
       cotangent_;  // per side of a changed face: bound of that across; else unknown
   std::vector<char>
-      is_wrong_;            // per face, bit k: its side k is the lower one of an edge, not locally Delaunay
-  std::vector<int> wrong_;  // these sides, ascending
+      is_wrong_;             // per face, bit k: its side k is the lower one of an edge, not locally Delaunay
+  std::vector<Side> wrong_;  // these sides, ascending
 };
 
 }  // namespace kinemesh

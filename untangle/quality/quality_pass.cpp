@@ -1,8 +1,6 @@
 #include "untangle/quality/quality_pass.h"
 
-#include <algorithm>
-
-#include "kinemesh/error.h"
+#include "core/base/registry.h"
 #include "untangle/quality/angles.h"
 #include "untangle/quality/delaunay_upkeep.h"
 #include "untangle/quality/vertex_sweeps.h"
@@ -45,27 +43,30 @@ std::unique_ptr<QualityPass> make_angles(const Mesh& mesh, const QualityOptions&
   return std::make_unique<AngleUpkeep>(mesh, AngleOptions{.angle = options.angle}, options.freedom);
 }
 
+const Registry<QualityInfo>& registry() {
+  static const Registry<QualityInfo> all(
+      "quality",
+      {
+          {"none", "leaves faces as the repair made them", make_none},
+          {"delaunay", "flips edges until the mesh is the constrained Delaunay triangulation", make_delaunay},
+          {"smooth", "moves free vertices towards the middle of their neighbours where angles gain",
+           make_smooth},
+          {"angles",
+           "flips edges and moves vertices at faces with an angle below the wanted one, nowhere else",
+           make_angles},
+      });
+  return all;
+}
+
 }  // namespace
 
-std::span<const QualityInfo> qualities() {
-  static const std::vector<QualityInfo> all{
-      {"none", "leaves faces as the repair made them", make_none},
-      {"delaunay", "flips edges until the mesh is the constrained Delaunay triangulation", make_delaunay},
-      {"smooth", "moves free vertices towards the middle of their neighbours where angles gain", make_smooth},
-      {"angles", "flips edges and moves vertices at faces with an angle below the wanted one, nowhere else",
-       make_angles},
-  };
-  return all;
+std::vector<QualityInfo> qualities() {
+  return registry().all();
 }
 
 std::unique_ptr<QualityPass> make_quality(std::string_view name, const Mesh& mesh,
                                           const QualityOptions& options) {
-  std::string known;
-  for (const auto& quality : qualities()) {
-    if (quality.name == name) return quality.make(mesh, options);
-    known += (known.empty() ? "" : ", ") + quality.name;
-  }
-  throw InputError("no quality is named '" + std::string(name) + "'; known are: " + known);
+  return registry().find(name).make(mesh, options);
 }
 
 }  // namespace kinemesh

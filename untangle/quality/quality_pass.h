@@ -8,9 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/sweep/face_minima.h"
+#include "kinemesh/detail/vertex_freedom.h"
 #include "kinemesh/mesh.h"
 #include "kinemesh/strategy.h"
-#include "untangle/quality/vertex_freedom.h"
 
 namespace kinemesh {
 
@@ -33,7 +34,7 @@ struct QualityCounts {
 };
 
 struct MovedVertex {
-  int vertex = none;
+  Vertex vertex;
   Point before{0.0, 0.0};
 };
 
@@ -50,7 +51,7 @@ class QualityPass {
   virtual bool moves_vertices() const { return false; }
 
   // Faces that flips of the last call have rewritten, each once; the mesh's numbers, padding included.
-  virtual std::span<const int> flipped_faces() const { return {}; }
+  virtual std::span<const Face> flipped_faces() const { return {}; }
 
   // Vertices that the last call has moved, each once, and where they were before it; the mesh's numbers.
   virtual std::span<const MovedVertex> moved_vertices() const { return {}; }
@@ -71,7 +72,7 @@ struct QualityInfo {
 
 // none, delaunay, smooth and angles. An unknown name is an InputError, and so are options that the pass
 // refuses.
-std::span<const QualityInfo> qualities();
+std::vector<QualityInfo> qualities();
 std::unique_ptr<QualityPass> make_quality(std::string_view name, const Mesh& mesh,
                                           const QualityOptions& options = {});
 

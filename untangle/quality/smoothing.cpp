@@ -24,8 +24,8 @@ class Smoother {
 
  private:
   bool untangle();
-  int tangled_face_at(int vertex) const;
-  bool untangle_from(int face);
+  Face tangled_face_at(Vertex vertex) const;
+  bool untangle_from(Face face);
   void sweep();
 
   Mesh& mesh_;
@@ -35,23 +35,23 @@ class Smoother {
 };
 
 bool Smoother::untangle() {
-  for (int v = 0; v < mesh_.n_vertices(); ++v) {
-    for (int face = tangled_face_at(v); face != none; face = tangled_face_at(v)) {
+  for (const Vertex v : mesh_.vertices()) {
+    for (Face face = tangled_face_at(v); face != none; face = tangled_face_at(v)) {
       if (!untangle_from(face)) return false;
     }
   }
   return true;
 }
 
-int Smoother::tangled_face_at(int vertex) const {
-  int tangled = none;
-  for_each_side_from(mesh_, vertex, [&](int side) {
+Face Smoother::tangled_face_at(Vertex vertex) const {
+  Face tangled = none;
+  for_each_side_from(mesh_, vertex, [&](Side side) {
     if (!is_upright(mesh_, Mesh::face_of(side))) tangled = Mesh::face_of(side);
   });
   return tangled;
 }
 
-bool Smoother::untangle_from(int face) {
+bool Smoother::untangle_from(Face face) {
   auto repaired = untangler_.repair_seeds(mesh_, std::array{face}, options_.repair);
   outcome_.untangled += static_cast<int>(repaired.record.regions.size());
   outcome_.replaced += repaired.record.replaced;

@@ -11,9 +11,9 @@
 namespace kinemesh {
 namespace {
 
-double distance_to_nearest_neighbour(const Mesh& mesh, int vertex) {
+double distance_to_nearest_neighbour(const Mesh& mesh, Vertex vertex) {
   double nearest = std::numeric_limits<double>::infinity();
-  for_each_neighbour(mesh, vertex, [&](int neighbour, int) {
+  for_each_neighbour(mesh, vertex, [&](Vertex neighbour, int) {
     nearest = std::min(nearest, glm::distance(mesh.position(vertex), mesh.position(neighbour)));
   });
   return nearest;
@@ -21,17 +21,17 @@ double distance_to_nearest_neighbour(const Mesh& mesh, int vertex) {
 
 // Of the smallest angle around the vertex; 0 if one of its faces is not upright, exactly. As measure has it,
 // to the last bit: corners in the same order.
-double worst_tangent(const Mesh& mesh, int vertex) {
+double worst_tangent(const Mesh& mesh, Vertex vertex) {
   double worst = std::numeric_limits<double>::infinity();
-  for_each_side_from(mesh, vertex, [&](int side) {
-    const int face = Mesh::face_of(side);
+  for_each_side_from(mesh, vertex, [&](Side side) {
+    const Face face = Mesh::face_of(side);
     worst = std::min(worst, is_upright(mesh, face) ? tangent_of_smallest_angle(mesh.corners(face)) : 0.0);
   });
   return worst;
 }
 
 // Moves the vertex there, or not at all.
-bool try_place(Mesh& mesh, int vertex, const Point& place, const VertexSweeps::Demand& demand) {
+bool try_place(Mesh& mesh, Vertex vertex, const Point& place, const VertexSweeps::Demand& demand) {
   Point& position = mesh.positions()[vertex];
   const Point before = position;
   if (!(glm::distance(before, place) >= demand.least_distance) || place == before) return false;
@@ -48,22 +48,22 @@ VertexSweeps::Counts VertexSweeps::run(Mesh& mesh, const SmoothingOptions& optio
   stays_ = stays;
   std::fill(is_moved_.begin(), is_moved_.end(), false);
   moved_.clear();
-  for (int v = 0; v < mesh.n_vertices(); ++v) restless_[v] = may_move(mesh, v);
+  for (const Vertex v : mesh.vertices()) restless_[v] = may_move(mesh, v);
   Counts counts;
   for (int moves = 1; moves > 0 && counts.sweeps < options.max_sweeps; ++counts.sweeps) {
     moves = 0;
-    for (int v = 0; v < mesh.n_vertices(); ++v) moves += restless_[v] && visit(mesh, v, options);
+    for (const Vertex v : mesh.vertices()) moves += restless_[v] && visit(mesh, v, options);
     counts.moves += moves;
   }
   counts.moved = static_cast<int>(moved_.size());
   return counts;
 }
 
-bool VertexSweeps::may_move(const Mesh& mesh, int vertex) const {
+bool VertexSweeps::may_move(const Mesh& mesh, Vertex vertex) const {
   return is_movable(mesh, vertex) && (held_.empty() || !held_[vertex]) && (stays_.empty() || !stays_[vertex]);
 }
 
-bool VertexSweeps::visit(Mesh& mesh, int v, const SmoothingOptions& options) {
+bool VertexSweeps::visit(Mesh& mesh, Vertex v, const SmoothingOptions& options) {
   restless_[v] = false;
   const Point before = mesh.position(v);
   const Demand demand{options.least_move * distance_to_nearest_neighbour(mesh, v), worst_tangent(mesh, v)};
@@ -72,14 +72,14 @@ bool VertexSweeps::visit(Mesh& mesh, int v, const SmoothingOptions& options) {
   if (!moves) return false;
   if (!std::exchange(is_moved_[v], true)) moved_.push_back({v, before});
   restless_[v] = true;
-  for_each_neighbour(mesh, v, [&](int w, int) { restless_[w] = may_move(mesh, w); });
+  for_each_neighbour(mesh, v, [&](Vertex w, int) { restless_[w] = may_move(mesh, w); });
   return true;
 }
 
-bool VertexSweeps::move_towards_mean(Mesh& mesh, int v, const Demand& demand) {
+bool VertexSweeps::move_towards_mean(Mesh& mesh, Vertex v, const Demand& demand) {
   Point sum{0.0, 0.0};
   int neighbours = 0;
-  for_each_neighbour(mesh, v, [&](int neighbour, int) {
+  for_each_neighbour(mesh, v, [&](Vertex neighbour, int) {
     sum += mesh.position(neighbour);
     ++neighbours;
   });
@@ -90,9 +90,9 @@ bool VertexSweeps::move_towards_mean(Mesh& mesh, int v, const Demand& demand) {
   return false;
 }
 
-bool VertexSweeps::move_to_optimum(Mesh& mesh, int v, const Demand& demand) {
+bool VertexSweeps::move_to_optimum(Mesh& mesh, Vertex v, const Demand& demand) {
   link_.clear();
-  for_each_side_from(mesh, v, [&](int side) {
+  for_each_side_from(mesh, v, [&](Side side) {
     link_.push_back({mesh.position(mesh.to(side)), mesh.position(mesh.apex(side))});
   });
   return try_place(mesh, v, optimal_point(link_, mesh.position(v)), demand);

@@ -41,10 +41,10 @@ class VertexSweeps {
   std::span<const MovedVertex> moved_vertices() const { return moved_; }
 
  private:
-  bool may_move(const Mesh& mesh, int vertex) const;
-  bool visit(Mesh& mesh, int vertex, const SmoothingOptions& options);
-  bool move_towards_mean(Mesh& mesh, int vertex, const Demand& demand);
-  bool move_to_optimum(Mesh& mesh, int vertex, const Demand& demand);
+  bool may_move(const Mesh& mesh, Vertex vertex) const;
+  bool visit(Mesh& mesh, Vertex vertex, const SmoothingOptions& options);
+  bool move_towards_mean(Mesh& mesh, Vertex vertex, const Demand& demand);
+  bool move_to_optimum(Mesh& mesh, Vertex vertex, const Demand& demand);
 
   std::vector<char> held_;
   std::span<const char> stays_;  // in this run

@@ -13,13 +13,13 @@ constexpr double most_in_regions = 1.0 / 2;
 
 }  // namespace
 
-RepairOutcome AutomaticRepair::repair(Mesh& mesh, const RepairOptions& options) {
+RepairOutcome AutomaticRepair::repair(Mesh& mesh, const Move& move) {
   const Stopwatch trying;
   const GlobalUntangling::Limits limits{static_cast<int>(most_tangled * mesh.n_faces()),
                                         static_cast<int>(most_in_regions * mesh.n_faces())};
-  if (auto outcome = global_.repair_within(limits, mesh, options)) return std::move(*outcome);
+  if (auto outcome = global_.repair_within(limits, mesh, move)) return std::move(*outcome);
   const double tried_ms = trying.milliseconds();
-  auto outcome = remesh_.repair(mesh, options);
+  auto outcome = remesh_.repair(mesh, move);
   outcome.record.explore_ms += tried_ms;
   return outcome;
 }

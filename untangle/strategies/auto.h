@@ -12,7 +12,7 @@ namespace kinemesh {
 class AutomaticRepair : public Strategy {
  public:
   std::string_view name() const override { return "auto"; }
-  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
+  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const Move& move) override;
 
  private:
   GlobalUntangling global_;

@@ -11,18 +11,18 @@ namespace kinemesh {
 namespace {
 
 // An inverted or flat face beside the edge, the lower one first, or none.
-int tangled_face_beside(const Mesh& mesh, int edge) {
-  for (const int side : {edge, mesh.opposite(edge)})
+Face tangled_face_beside(const Mesh& mesh, Side edge) {
+  for (const Side side : {edge, mesh.opposite(edge)})
     if (side != none && !is_upright(mesh, Mesh::face_of(side))) return Mesh::face_of(side);
   return none;
 }
 
 // Pre: both faces are upright. If not, the two form a strictly convex quadrilateral, so that a flip leaves
 // upright faces: the angles opposite the edge add up to more than two right ones.
-bool is_locally_delaunay(const Mesh& mesh, int edge) {
-  const auto at = [&](int vertex) { return mesh.position(vertex); };
+bool is_locally_delaunay(const Mesh& mesh, Side edge) {
+  const auto at = [&](Vertex vertex) { return mesh.position(vertex); };
   return in_circle(at(mesh.from(edge)), at(mesh.to(edge)), at(mesh.apex(edge)),
-                   at(mesh.apex(mesh.opposite(edge)))) != Side::Inside;
+                   at(mesh.apex(mesh.opposite(edge)))) != InCircle::Inside;
 }
 
 }  // namespace
@@ -35,12 +35,12 @@ FlipOutcome DelaunayFlipping::run(Mesh& mesh, const RepairOptions& options) {
   reset(mesh);
   for (int face = mesh.n_faces(); face-- > 0;)
     for (int k = 3; k-- > 0;)
-      if (mesh.is_lower(Mesh::side(face, k))) push(Mesh::side(face, k));
+      if (const Side side = Mesh::side(Face(face), k); mesh.is_lower(side)) push(side);
   return run_pending(mesh, options);
 }
 
-FlipOutcome DelaunayFlipping::run(Mesh& mesh, std::span<const int> sides, const RepairOptions& options) {
-  for (const int side : sides) {
+FlipOutcome DelaunayFlipping::run(Mesh& mesh, std::span<const Side> sides, const RepairOptions& options) {
+  for (const Side side : sides) {
     if (side < 0 || side >= 4 * mesh.n_faces() || side % 4 == 3)
       throw InputError("there is no side " + std::to_string(side));
   }
@@ -67,29 +67,29 @@ void DelaunayFlipping::reserve(const Mesh& mesh) {
 // A defect or an exception may have left sides behind.
 void DelaunayFlipping::reset(const Mesh& mesh) {
   while (!pending_.empty()) pop();
-  for (const int face : flipped_faces_) is_flipped_[face] = false;
+  for (const Face face : flipped_faces_) is_flipped_[face] = false;
   flipped_faces_.clear();
   reserve(mesh);
 }
 
-void DelaunayFlipping::push(int side) {
+void DelaunayFlipping::push(Side side) {
   if (is_pending_[side]) return;
   pending_.push_back(side);
   is_pending_[side] = true;
 }
 
-int DelaunayFlipping::pop() {
-  const int side = pending_.back();
+Side DelaunayFlipping::pop() {
+  const Side side = pending_.back();
   pending_.pop_back();
   is_pending_[side] = false;
   return side;
 }
 
 // A side that waits while its face is rewritten is looked at all the same: the new one may be another edge's.
-void DelaunayFlipping::visit(Mesh& mesh, int side, const RepairOptions& options, FlipOutcome& outcome) {
+void DelaunayFlipping::visit(Mesh& mesh, Side side, const RepairOptions& options, FlipOutcome& outcome) {
   ++outcome.visits;
-  const int edge = mesh.lower(side);
-  const int tangled = tangled_face_beside(mesh, edge);
+  const Side edge = mesh.lower(side);
+  const Face tangled = tangled_face_beside(mesh, edge);
   if (tangled != none) {
     untangle(mesh, tangled, options, outcome);
   } else if (mesh.is_flippable(edge) && !is_locally_delaunay(mesh, edge)) {
@@ -99,37 +99,37 @@ void DelaunayFlipping::visit(Mesh& mesh, int side, const RepairOptions& options,
 }
 
 // The edge at hand is a side of the region's and so looked at again.
-void DelaunayFlipping::untangle(Mesh& mesh, int face, const RepairOptions& options, FlipOutcome& outcome) {
+void DelaunayFlipping::untangle(Mesh& mesh, Face face, const RepairOptions& options, FlipOutcome& outcome) {
   auto repaired = untangler_.repair_seeds(mesh, std::array{face}, options);
   outcome.defect = std::move(repaired.defect);
   for (const auto& region : repaired.record.regions) {
     ++outcome.untangled;
     outcome.replaced += static_cast<int>(region.faces.size());
-    for (const int replaced : region.faces)
-      for (const int its : Mesh::sides(replaced)) push(its);
+    for (const Face replaced : region.faces)
+      for (const Side its : Mesh::sides(replaced)) push(its);
   }
 }
 
 // The four edges around it are looked at again.
-void DelaunayFlipping::flip(Mesh& mesh, int edge) {
-  const int turned = mesh.flip(edge);
-  for (const int side : {turned, mesh.opposite(turned)}) {
+void DelaunayFlipping::flip(Mesh& mesh, Side edge) {
+  const Side turned = mesh.flip(edge);
+  for (const Side side : {turned, mesh.opposite(turned)}) {
     note_flipped(Mesh::face_of(side));
     push(Mesh::next(side));
     push(Mesh::prev(side));
   }
 }
 
-void DelaunayFlipping::note_flipped(int face) {
+void DelaunayFlipping::note_flipped(Face face) {
   if (is_flipped_[face]) return;
   flipped_faces_.push_back(face);
   is_flipped_[face] = true;
 }
 
-std::vector<int> sides_of(const Mesh& mesh, std::span<const int> faces) {
-  std::vector<int> sides;
-  for (const int face : faces)
-    for (const int side : Mesh::sides(face)) sides.push_back(mesh.lower(side));
+std::vector<Side> sides_of(const Mesh& mesh, std::span<const Face> faces) {
+  std::vector<Side> sides;
+  for (const Face face : faces)
+    for (const Side side : Mesh::sides(face)) sides.push_back(mesh.lower(side));
   std::sort(sides.begin(), sides.end());
   sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
   return sides;

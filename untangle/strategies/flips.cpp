@@ -37,7 +37,7 @@ struct Flip {
   Pair before, after;
 };
 
-Flip flip_of(const Mesh& mesh, int edge) {
+Flip flip_of(const Mesh& mesh, Side edge) {
   const Point &a = mesh.position(mesh.from(edge)), &b = mesh.position(mesh.to(edge));
   const Point &c = mesh.position(mesh.apex(edge)), &d = mesh.position(mesh.apex(mesh.opposite(edge)));
   return {{{{a, b, c}, {b, a, d}}}, {{{d, b, c}, {c, a, d}}}};
@@ -51,19 +51,19 @@ double inverted_area(const Pair& pair) {
 }
 
 // Twice what a flip takes off the inverted area; rounded, and 0 where that overflows.
-double gain_of(const Mesh& mesh, int edge) {
+double gain_of(const Mesh& mesh, Side edge) {
   const auto [before, after] = flip_of(mesh, edge);
   const double gain = inverted_area(before) - inverted_area(after);
   return std::isfinite(gain) ? gain : 0.0;
 }
 
-bool would_double(const Mesh& mesh, int edge) {
-  const int c = mesh.apex(edge), d = mesh.apex(mesh.opposite(edge));
+bool would_double(const Mesh& mesh, Side edge) {
+  const Vertex c = mesh.apex(edge), d = mesh.apex(mesh.opposite(edge));
   return c == d || are_joined(mesh, c, d);
 }
 
 // Of the faces that were tangled at first or have been rewritten: no other can be.
-Tangles tangles_left(const Mesh& mesh, const Tangles& first, std::vector<int> rewritten) {
+Tangles tangles_left(const Mesh& mesh, const Tangles& first, std::vector<Face> rewritten) {
   rewritten.insert(rewritten.end(), first.inverted.begin(), first.inverted.end());
   rewritten.insert(rewritten.end(), first.flat.begin(), first.flat.end());
   std::sort(rewritten.begin(), rewritten.end());
@@ -76,7 +76,7 @@ Tangles tangles_left(const Mesh& mesh, const Tangles& first, std::vector<int> re
 // The signed areas of both faces have a sum T that no flip changes. Neither inverted: the inverted area is 0.
 // Neither upright: it is -T, and the least there can be. One of each: it is that of the inverted one, which
 // is more than both of these.
-bool flip_untangles(const Mesh& mesh, int edge) {
+bool flip_untangles(const Mesh& mesh, Side edge) {
   const auto [before, after] = flip_of(mesh, edge);
   if (before.is_folded()) {
     return !after.is_folded() ||
@@ -94,23 +94,23 @@ class EdgeFlips::Run {
   }
 
   void flip_all(const Tangles& tangles) {
-    for (const int face : tangles.inverted) push_sides(face);
-    for (const int face : tangles.flat) push_sides(face);
+    for (const Face face : tangles.inverted) push_sides(face);
+    for (const Face face : tangles.flat) push_sides(face);
     int flips_before = none;
     while (!queue_.empty() && n_flips_ != flips_before) {
       flips_before = n_flips_;
       while (!queue_.empty()) visit(pop());
-      for (const int side : std::exchange(blocked_, {})) push(side);
+      for (const Side side : std::exchange(blocked_, {})) push(side);
     }
   }
 
  private:
-  void push_sides(int face) {
-    for (const int side : Mesh::sides(face)) push(side);
+  void push_sides(Face face) {
+    for (const Side side : Mesh::sides(face)) push(side);
   }
 
-  void push(int side) {
-    const int edge = mesh_.lower(side);
+  void push(Side side) {
+    const Side edge = mesh_.lower(side);
     if (!mesh_.is_flippable(edge) || !flip_untangles(mesh_, edge)) return;
     queue_.push_back({gain_of(mesh_, edge), edge});
     std::push_heap(queue_.begin(), queue_.end());
@@ -125,27 +125,27 @@ class EdgeFlips::Run {
 
   // Flips beside an edge have put it into the queue again, and what was in there before means nothing.
   void visit(const Candidate& candidate) {
-    const int edge = mesh_.lower(candidate.side);
+    const Side edge = mesh_.lower(candidate.side);
     if (!mesh_.is_flippable(edge) || candidate.gain != gain_of(mesh_, edge) || !flip_untangles(mesh_, edge))
       return;
     if (would_double(mesh_, edge)) {
       blocked_.push_back(candidate.side);  // until the other edge goes
       return;
     }
-    const int left = Mesh::face_of(edge), right = mesh_.face_across(edge);
+    const Face left = Mesh::face_of(edge), right = mesh_.face_across(edge);
     flip(edge);
     push_sides(left);
     push_sides(right);
   }
 
-  void flip(int edge) {
+  void flip(Side edge) {
     const int left = set_of(Mesh::face_of(edge)), right = set_of(mesh_.face_across(edge));
     if (left != right) join(left, right);
     undo_.flip(edge);
     ++n_flips_;
   }
 
-  int set_of(int face) {
+  int set_of(Face face) {
     if (rewritten_.set_of(face) == none) rewritten_.add(face, rewritten_.open());
     return rewritten_.set_of(face);
   }
@@ -159,14 +159,14 @@ class EdgeFlips::Run {
   const Mesh& mesh_;
   FaceSets& rewritten_;
   std::vector<Candidate>& queue_;  // a heap
-  std::vector<int> blocked_;       // sides of edges whose flips would double others
+  std::vector<Side> blocked_;      // sides of edges whose flips would double others
   int n_flips_ = 0;
 };
 
-RepairOutcome EdgeFlips::repair(Mesh& mesh, const RepairOptions& options) {
+RepairOutcome EdgeFlips::repair(Mesh& mesh, const Move& move) {
   RepairOutcome outcome;
   auto& record = outcome.record;
-  const auto tangles = detect(mesh, options, record);
+  const auto tangles = detect(mesh, move, record);
   record.components = inverted_components(mesh, tangles.inverted).count;
 
   const Stopwatch flipping;
@@ -182,7 +182,7 @@ RepairOutcome EdgeFlips::repair(Mesh& mesh, const RepairOptions& options) {
 
   // Regions are described as they were.
   const Stopwatch describing;
-  record.escaped = count_escaped(mesh, options);
+  record.escaped = count_escaped(mesh, move.options());
   undo.look_back(faces, [&] { record.regions = describe_regions(mesh); });
   record.replaced = static_cast<int>(faces.size());
   record.splice_ms = describing.milliseconds();
@@ -190,8 +190,8 @@ RepairOutcome EdgeFlips::repair(Mesh& mesh, const RepairOptions& options) {
 }
 
 // Ascending; sorts the sets.
-std::vector<int> EdgeFlips::rewritten_faces() {
-  std::vector<int> faces;
+std::vector<Face> EdgeFlips::rewritten_faces() {
+  std::vector<Face> faces;
   for (int set = 0; set < rewritten_.count(); ++set) {
     rewritten_.sort(set);
     faces.insert(faces.end(), rewritten_.faces(set).begin(), rewritten_.faces(set).end());

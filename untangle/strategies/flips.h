@@ -13,7 +13,7 @@ namespace kinemesh {
 
 // Whether flipping the edge makes the inverted area smaller (the sum of the areas of all inverted faces), or
 // leaves it as it is and makes flat faces fewer. Exact. edge: one of its sides. Pre: mesh.is_flippable(edge).
-bool flip_untangles(const Mesh& mesh, int edge);
+bool flip_untangles(const Mesh& mesh, Side edge);
 
 // Flips edges of inverted and flat faces as long as some flip makes the inverted area smaller, or, that area
 // being the same, the faces fewer that are not upright. Greedy: what makes it smallest comes first; this
@@ -29,17 +29,17 @@ bool flip_untangles(const Mesh& mesh, int edge);
 class EdgeFlips : public Strategy {
  public:
   std::string_view name() const override { return "flips"; }
-  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
+  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const Move& move) override;
 
  private:
   class Run;
-  std::vector<int> rewritten_faces();
+  std::vector<Face> rewritten_faces();
   std::vector<RegionRecord> describe_regions(const Mesh& mesh) const;
 
   // The largest gain comes first, of equal ones the side with the smaller number.
   struct Candidate {
     double gain;
-    int side;  // of the lower face when it was pushed
+    Side side;  // of the lower face when it was pushed
     bool operator<(const Candidate& other) const {
       return std::tuple(gain, other.side) < std::tuple(other.gain, side);
     }

@@ -14,15 +14,16 @@ constexpr int faces_at_hand = 4096;
 
 }  // namespace
 
-RepairOutcome GlobalUntangling::repair(Mesh& mesh, const RepairOptions& options) {
-  return *repair_within({mesh.n_faces(), mesh.n_faces()}, mesh, options);
+RepairOutcome GlobalUntangling::repair(Mesh& mesh, const Move& move) {
+  return *repair_within({mesh.n_faces(), mesh.n_faces()}, mesh, move);
 }
 
 std::optional<RepairOutcome> GlobalUntangling::repair_within(const Limits& limits, Mesh& mesh,
-                                                             const RepairOptions& options) {
+                                                             const Move& move) {
+  const RepairOptions& options = move.options();
   RepairOutcome outcome;
   auto& record = outcome.record;
-  const auto tangles = detect(mesh, options, record);
+  const auto tangles = detect(mesh, move, record);
   if (tangles.empty()) {
     record.escaped = count_escaped(mesh, options);
     return outcome;

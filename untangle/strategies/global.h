@@ -15,14 +15,14 @@ namespace kinemesh {
 class GlobalUntangling : public Strategy {
  public:
   std::string_view name() const override { return "global"; }
-  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
+  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const Move& move) override;
 
   // The same, unless more faces than this are tangled or in regions: then nothing, and the mesh is as it was.
   struct Limits {
     int tangled, in_regions;
   };
   [[nodiscard]] std::optional<RepairOutcome> repair_within(const Limits& limits, Mesh& mesh,
-                                                           const RepairOptions& options);
+                                                           const Move& move);
 
  private:
   std::optional<Defect> plan(const Mesh& mesh, const RepairOptions& options, RepairRecord& record);

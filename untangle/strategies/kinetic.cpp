@@ -23,27 +23,27 @@ void require_before(const Mesh& mesh, std::span<const Point> before) {
 
 }  // namespace
 
-RepairOutcome KineticUntangling::repair(Mesh& mesh, const RepairOptions& options) {
-  require_before(mesh, options.before);
+RepairOutcome KineticUntangling::repair(Mesh& mesh, const Move& move) {
+  require_before(mesh, move.before());
   RepairOutcome outcome;
   auto& record = outcome.record;
-  const auto tangles = detect(mesh, options, record);
+  const auto tangles = detect(mesh, move, record);
 
   const Stopwatch moving;
   Undo undo(mesh);
-  KineticFlips flips(undo, options.before);
+  KineticFlips flips(undo, move.before());
   const bool is_upright = flips.run();
   counts_ = flips.counts();
   record.explore_ms = moving.milliseconds();
 
   const Stopwatch replacing;
-  outcome.defect = replace_tangles(undo, is_upright ? Tangles{} : detect(mesh), options.allow_escaped);
+  outcome.defect = replace_tangles(undo, is_upright ? Tangles{} : detect(mesh), move.options().allow_escaped);
   record.triangulate_ms = replacing.milliseconds();
   if (outcome.defect) return outcome;
 
   // Regions are described as they were.
   const Stopwatch describing;
-  record.escaped = count_escaped(mesh, options);
+  record.escaped = count_escaped(mesh, move.options());
   const auto rewritten = undo.rewritten_faces();
   undo.look_back(rewritten, [&] {
     find_regions(mesh, rewritten);
@@ -68,24 +68,24 @@ std::optional<Defect> KineticUntangling::replace_tangles(Undo& undo, const Tangl
 
 // In the connectivity before, connected across edges. What has been flipped or replaced together hangs
 // together: flips and replacements only divide the polygon of their faces anew.
-void KineticUntangling::find_regions(const Mesh& mesh, std::span<const int> rewritten) {
+void KineticUntangling::find_regions(const Mesh& mesh, std::span<const Face> rewritten) {
   regions_.reset(mesh.n_faces());
   is_rewritten_.assign(mesh.n_faces(), false);
-  for (const int face : rewritten) is_rewritten_[face] = true;
-  std::vector<int> pending;
-  const auto take = [&](int face, int region) {
+  for (const Face face : rewritten) is_rewritten_[face] = true;
+  std::vector<Face> pending;
+  const auto take = [&](Face face, int region) {
     if (face == none || !is_rewritten_[face] || regions_.set_of(face) != none) return;
     regions_.add(face, region);
     pending.push_back(face);
   };
-  for (const int first : rewritten) {
+  for (const Face first : rewritten) {
     if (regions_.set_of(first) != none) continue;
     const int region = regions_.open();
     take(first, region);
     while (!pending.empty()) {
-      const int face = pending.back();
+      const Face face = pending.back();
       pending.pop_back();
-      for (const int side : mesh.sides(face)) take(mesh.face_across(side), region);
+      for (const Side side : Mesh::sides(face)) take(mesh.face_across(side), region);
     }
     regions_.sort(region);
   }

@@ -12,7 +12,7 @@
 
 namespace kinemesh {
 
-// Vertices move from RepairOptions::before to where they are, on straight lines; the mesh is one all the way
+// Vertices move from Move::before to where they are, on straight lines; the mesh is one all the way
 // [Agarwal 2008, §1]. Unlike the other strategies' result, this one's depends on the way: a face that has
 // turned over and back again may have cost a flip. Where no flip can follow, because a vertex has met a
 // constrained edge, the hull or several others on its way, the connectivity reached is taken to the end, and
@@ -27,14 +27,14 @@ class KineticUntangling : public Strategy {
  public:
   std::string_view name() const override { return "kinetic"; }
 
-  // Throws InputError if options.before does not hold a position for each vertex.
-  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
+  // Throws InputError if move.before() does not hold a position for each vertex.
+  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const Move& move) override;
 
   const KineticCounts& counts() const { return counts_; }  // of the last repair
 
  private:
   [[nodiscard]] std::optional<Defect> replace_tangles(Undo& undo, const Tangles& tangles, bool allow_escaped);
-  void find_regions(const Mesh& mesh, std::span<const int> rewritten);
+  void find_regions(const Mesh& mesh, std::span<const Face> rewritten);
   void describe_regions(const Mesh& mesh, RepairRecord& record);
 
   GlobalWalk walk_;

@@ -46,8 +46,8 @@ class KineticFlips {
  private:
   struct Event {
     CollapseTime when;
-    int face;
-    Triangle corners;  // out of date once the face has others
+    Face face;
+    MeshTriangle corners;  // out of date once the face has others
   };
   struct Later {
     bool operator()(const Event& e, const Event& f) const;
@@ -57,20 +57,20 @@ class KineticFlips {
   bool finish();
   void handle(const Event& event);
   void start_instant(const CollapseTime& time);
-  void schedule(int face, const CollapseTime* from);
+  void schedule(Face face, const CollapseTime* from);
   void settle();
-  bool improve(int face);
-  bool flip_on_line(int face);
-  bool flip_beside_meeting(int face);
-  void flip(int edge);
+  bool improve(Face face);
+  bool flip_on_line(Face face);
+  bool flip_beside_meeting(Face face);
+  void flip(Side edge);
 
-  MovingPoint moving(int vertex) const { return {before_[vertex], mesh_.position(vertex)}; }
-  KineticQuadratic area(const Triangle& corners) const;
-  bool is_upright(const Triangle& corners) const;
-  bool is_flat(const Triangle& corners) const;
-  bool have_met(int u, int v) const;
-  int inner_corner(const Triangle& corners) const;
-  bool leaves_upright_faces(int edge) const;
+  MovingPoint moving(Vertex vertex) const { return {before_[vertex], mesh_.position(vertex)}; }
+  KineticQuadratic area(const MeshTriangle& corners) const;
+  bool is_upright(const MeshTriangle& corners) const;
+  bool is_flat(const MeshTriangle& corners) const;
+  bool have_met(Vertex u, Vertex v) const;
+  int inner_corner(const MeshTriangle& corners) const;
+  bool leaves_upright_faces(Side edge) const;
 
   Undo& undo_;
   const Mesh& mesh_;
@@ -78,8 +78,8 @@ class KineticFlips {
   std::priority_queue<Event, std::vector<Event>, Later> events_;
   CollapseTime now_ = CollapseTime::end();
   bool is_at_end_ = false;
-  std::vector<int> doubtful_;  // faces that may not be upright at this instant
-  std::set<Edge> gone_;        // ends of edges on lines that were flipped at this instant
+  std::vector<Face> doubtful_;            // faces that may not be upright at this instant
+  std::set<std::array<Vertex, 2>> gone_;  // ends of edges on lines that were flipped at this instant
   KineticCounts counts_;
 };
 

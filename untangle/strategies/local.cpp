@@ -21,7 +21,7 @@
 namespace kinemesh {
 namespace {
 
-Orientation turn(const Mesh& mesh, int face) {
+Orientation turn(const Mesh& mesh, Face face) {
   const auto [a, b, c] = mesh.corners(face);
   return orientation(a, b, c);
 }
@@ -36,11 +36,11 @@ RepairRecord without_counts(const RepairRecord& record) {
   return times;
 }
 
-std::vector<int> seeds_by_user_number(const Mesh& mesh, const Tangles& tangles) {
+std::vector<Face> seeds_by_user_number(const Mesh& mesh, const Tangles& tangles) {
   auto seeds = tangles.inverted;
   seeds.insert(seeds.end(), tangles.flat.begin(), tangles.flat.end());
-  const auto key = [&](int f) { return std::tuple(mesh.is_padding(f), mesh.user_face(f), f); };
-  std::sort(seeds.begin(), seeds.end(), [&](int f, int g) { return key(f) < key(g); });
+  const auto key = [&](Face f) { return std::tuple(mesh.is_padding(f), mesh.user_face(f), f); };
+  std::sort(seeds.begin(), seeds.end(), [&](Face f, Face g) { return key(f) < key(g); });
   return seeds;
 }
 
@@ -48,7 +48,7 @@ std::vector<int> seeds_by_user_number(const Mesh& mesh, const Tangles& tangles) 
 
 class LocalUntangling::Worker {
  public:
-  RepairOutcome repair_seeds(Mesh& mesh, std::span<const int> seeds, const RepairOptions& options);
+  RepairOutcome repair_seeds(Mesh& mesh, std::span<const Face> seeds, const RepairOptions& options);
 
  private:
   struct Region {
@@ -58,10 +58,10 @@ class LocalUntangling::Worker {
     std::optional<Defect> defect;
   };
 
-  Region untangle(const Mesh& mesh, int seed, const RepairOptions& options, RepairRecord& times);
-  std::optional<Region> minimum_region(const Mesh& mesh, int seed, const RepairOptions& options,
+  Region untangle(const Mesh& mesh, Face seed, const RepairOptions& options, RepairRecord& times);
+  std::optional<Region> minimum_region(const Mesh& mesh, Face seed, const RepairOptions& options,
                                        RepairRecord& times);
-  Region piece_of_global_walk(const Mesh& mesh, int seed, const RepairOptions& options, RepairRecord& times);
+  Region piece_of_global_walk(const Mesh& mesh, Face seed, const RepairOptions& options, RepairRecord& times);
   bool remesh(const Mesh& mesh, const LocalExploration& exploration, const RepairOptions& options,
               Region& region);
   bool remesh_rest(const Mesh& mesh, const RepairOptions& options, Region& region);
@@ -82,11 +82,11 @@ LocalUntangling::~LocalUntangling() = default;
 LocalUntangling::LocalUntangling(LocalUntangling&&) noexcept = default;
 LocalUntangling& LocalUntangling::operator=(LocalUntangling&&) noexcept = default;
 
-RepairOutcome LocalUntangling::repair(Mesh& mesh, const RepairOptions& options) {
+RepairOutcome LocalUntangling::repair(Mesh& mesh, const Move& move) {
   RepairRecord found;
-  const auto tangles = detect(mesh, options, found);
+  const auto tangles = detect(mesh, move, found);
   const auto components = inverted_components(mesh, tangles.inverted);
-  auto outcome = repair_seeds(mesh, seeds_by_user_number(mesh, tangles), options);
+  auto outcome = repair_seeds(mesh, seeds_by_user_number(mesh, tangles), move.options());
   outcome.record.inverted = found.inverted;
   outcome.record.degenerate = found.degenerate;
   outcome.record.components = components.count;
@@ -95,14 +95,14 @@ RepairOutcome LocalUntangling::repair(Mesh& mesh, const RepairOptions& options) 
   return outcome;
 }
 
-RepairOutcome LocalUntangling::repair_seeds(Mesh& mesh, std::span<const int> seeds,
+RepairOutcome LocalUntangling::repair_seeds(Mesh& mesh, std::span<const Face> seeds,
                                             const RepairOptions& options) {
   return worker_->repair_seeds(mesh, seeds, options);
 }
 
-RepairOutcome LocalUntangling::Worker::repair_seeds(Mesh& mesh, std::span<const int> seeds,
+RepairOutcome LocalUntangling::Worker::repair_seeds(Mesh& mesh, std::span<const Face> seeds,
                                                     const RepairOptions& options) {
-  for (const int seed : seeds) {
+  for (const Face seed : seeds) {
     if (seed < 0 || seed >= mesh.n_faces()) throw InputError("there is no face " + std::to_string(seed));
     if (!is_upright(mesh, seed)) continue;
     throw InputError("face " + std::to_string(mesh.user_face(seed)) +
@@ -112,7 +112,7 @@ RepairOutcome LocalUntangling::Worker::repair_seeds(Mesh& mesh, std::span<const 
   auto& record = outcome.record;
   Undo undo(mesh);
   has_walked_ = false;
-  for (const int seed : seeds) {
+  for (const Face seed : seeds) {
     if (is_upright(mesh, seed)) continue;
     auto region = untangle(mesh, seed, options, record);
     if (region.defect) return {without_counts(record), std::move(region.defect)};
@@ -131,7 +131,7 @@ RepairOutcome LocalUntangling::Worker::repair_seeds(Mesh& mesh, std::span<const 
   return outcome;
 }
 
-LocalUntangling::Worker::Region LocalUntangling::Worker::untangle(const Mesh& mesh, int seed,
+LocalUntangling::Worker::Region LocalUntangling::Worker::untangle(const Mesh& mesh, Face seed,
                                                                   const RepairOptions& options,
                                                                   RepairRecord& times) {
   if (turn(mesh, seed) == Orientation::Clockwise) {
@@ -142,7 +142,7 @@ LocalUntangling::Worker::Region LocalUntangling::Worker::untangle(const Mesh& me
 
 // Nothing where degenerate positions are in the way, or labels that other tangles keep from fitting.
 std::optional<LocalUntangling::Worker::Region> LocalUntangling::Worker::minimum_region(
-    const Mesh& mesh, int seed, const RepairOptions& options, RepairRecord& times) {
+    const Mesh& mesh, Face seed, const RepairOptions& options, RepairRecord& times) {
   const Stopwatch exploring;
   LocalExploration exploration(mesh);
   const bool found = exploration.run(seed);
@@ -152,7 +152,7 @@ std::optional<LocalUntangling::Worker::Region> LocalUntangling::Worker::minimum_
   const Stopwatch triangulating;
   sets_.reset(mesh.n_faces());
   const int set = sets_.open();
-  for (const int face : exploration.faces()) sets_.add(face, set);
+  for (const Face face : exploration.faces()) sets_.add(face, set);
 
   Region region;
   hole_.dig(mesh, sets_, set);
@@ -206,7 +206,7 @@ void LocalUntangling::Worker::finish_region(const Mesh& mesh, const FaceSets& se
 }
 
 // One walk serves all seeds: each region that is replaced lies in one piece, whose border stays.
-LocalUntangling::Worker::Region LocalUntangling::Worker::piece_of_global_walk(const Mesh& mesh, int seed,
+LocalUntangling::Worker::Region LocalUntangling::Worker::piece_of_global_walk(const Mesh& mesh, Face seed,
                                                                               const RepairOptions& options,
                                                                               RepairRecord& times) {
   const Stopwatch exploring;

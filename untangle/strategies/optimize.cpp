@@ -52,12 +52,13 @@ double reach(std::span<const LinkEdge> link, const Point& x) {
   return farthest;
 }
 
-void sort_unique(std::vector<int>& numbers) {
+template <class Number>
+void sort_unique(std::vector<Number>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-std::vector<int> all_of(const Tangles& tangles) {
+std::vector<Face> all_of(const Tangles& tangles) {
   auto all = tangles.inverted;
   all.insert(all.end(), tangles.flat.begin(), tangles.flat.end());
   return all;
@@ -97,35 +98,35 @@ class VertexOptimization::Run {
 
  private:
   // Free vertices so many edges or fewer from a face that is left, ascending.
-  std::vector<int> within(int rings) const {
-    std::vector<int> vertices;
-    for (const int face : all_of(left_))
+  std::vector<Vertex> within(int rings) const {
+    std::vector<Vertex> vertices;
+    for (const Face face : all_of(left_))
       vertices.insert(vertices.end(), mesh_.triangles()[face].begin(), mesh_.triangles()[face].end());
     for (int ring = 0; ring < rings; ++ring) {
       sort_unique(vertices);
       for (std::size_t i = 0, n = vertices.size(); i < n; ++i)
-        for_each_neighbour(mesh_, vertices[i], [&](int w, int) { vertices.push_back(w); });
+        for_each_neighbour(mesh_, vertices[i], [&](Vertex w, Side) { vertices.push_back(w); });
     }
     sort_unique(vertices);
-    std::erase_if(vertices, [&](int v) { return !is_movable(mesh_, v); });
+    std::erase_if(vertices, [&](Vertex v) { return !is_movable(mesh_, v); });
     return vertices;
   }
 
-  void sweep(const std::vector<int>& vertices) {
+  void sweep(const std::vector<Vertex>& vertices) {
     auto faces = all_of(left_);
-    for (const int v : vertices) {
+    for (const Vertex v : vertices) {
       if (!is_restless_[v] || !visit(v)) continue;
-      for_each_side_from(mesh_, v, [&](int side) { faces.push_back(Mesh::face_of(side)); });
+      for_each_side_from(mesh_, v, [&](Side side) { faces.push_back(Mesh::face_of(side)); });
     }
     sort_unique(faces);
     left_ = tangles_among(mesh_, faces);
   }
 
-  bool visit(int v) {
+  bool visit(Vertex v) {
     is_restless_[v] = false;
     auto& link = own_.link_;
     link.clear();
-    for_each_side_from(mesh_, v, [&](int side) {
+    for_each_side_from(mesh_, v, [&](Side side) {
       link.push_back({mesh_.position(mesh_.to(side)), mesh_.position(mesh_.apex(side))});
     });
     const auto place = place_of(link, mesh_.position(v));
@@ -148,11 +149,11 @@ class VertexOptimization::Run {
     return is_worth_it && all_larger(link, to, smallest(link, from));
   }
 
-  void move(int v, const Point& place) {
+  void move(Vertex v, const Point& place) {
     if (!own_.is_moved_[v]) own_.moved_.emplace_back(v, mesh_.position(v));
     own_.is_moved_[v] = true;
     mesh_.positions()[v] = place;
-    for_each_neighbour(mesh_, v, [&](int w, int) { is_restless_[w] = true; });
+    for_each_neighbour(mesh_, v, [&](Vertex w, Side) { is_restless_[w] = true; });
   }
 
   VertexOptimization& own_;
@@ -162,10 +163,10 @@ class VertexOptimization::Run {
   bool kept_ = false;
 };
 
-RepairOutcome VertexOptimization::repair(Mesh& mesh, const RepairOptions& options) {
+RepairOutcome VertexOptimization::repair(Mesh& mesh, const Move& move) {
   RepairOutcome outcome;
   auto& record = outcome.record;
-  const auto tangles = detect(mesh, options, record);
+  const auto tangles = detect(mesh, move, record);
   record.components = inverted_components(mesh, tangles.inverted).count;
 
   const Stopwatch sweeping;
@@ -181,7 +182,7 @@ RepairOutcome VertexOptimization::repair(Mesh& mesh, const RepairOptions& option
       outcome.defect = stuck_defect(mesh, left, "moves of vertices");
   }
   record.explore_ms = sweeping.milliseconds();
-  if (!outcome.defect) record.escaped = count_escaped(mesh, options);
+  if (!outcome.defect) record.escaped = count_escaped(mesh, move.options());
   return outcome;
 }
 

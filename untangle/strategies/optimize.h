@@ -28,7 +28,7 @@ class VertexOptimization : public Strategy {
 
   std::string_view name() const override { return "optimize"; }
   bool moves_vertices() const override { return true; }
-  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
+  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const Move& move) override;
 
   // Of the last repair.
   int sweeps() const { return sweeps_; }

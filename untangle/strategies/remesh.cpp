@@ -8,16 +8,16 @@
 
 namespace kinemesh {
 
-RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
+RepairOutcome FullRemesh::repair(Mesh& mesh, const Move& move) {
   RepairOutcome outcome;
   auto& record = outcome.record;
-  const auto tangles = detect(mesh, options, record);
+  const auto tangles = detect(mesh, move, record);
 
   const Stopwatch working;
   const double cgal_before = mesher_.triangulator_ms();
   everything_.reset(mesh.n_faces());
   const int all = everything_.open();
-  for (int face = 0; face < mesh.n_faces(); ++face) everything_.add(face, all);
+  for (const Face face : mesh.faces()) everything_.add(face, all);
   hole_.dig(mesh, everything_, all);
   auto line = describe_region(mesh, hole_);
   record.components = line.components;
@@ -31,13 +31,13 @@ RepairOutcome FullRemesh::repair(Mesh& mesh, const RepairOptions& options) {
   if (result == RegionMesher::Result::NotSimple)
     throw std::logic_error("the whole mesh has no simple border");
   Patch patch;
-  outcome.defect = finisher_.run(mesh, hole_, mesher_.new_faces(), options.allow_escaped, patch);
+  outcome.defect = finisher_.run(mesh, hole_, mesher_.new_faces(), move.options().allow_escaped, patch);
   if (outcome.defect) return outcome;
 
   record.replaced = mesh.n_faces();
   record.regions.push_back(std::move(line));
   mesh.splice(patch);
-  record.escaped = count_escaped(mesh, options);
+  record.escaped = count_escaped(mesh, move.options());
   record.splice_ms = working.milliseconds() - record.triangulate_ms;
   return outcome;
 }

@@ -12,7 +12,7 @@ class FullRemesh : public Strategy {
  public:
   std::string_view name() const override { return "remesh"; }
   // triangulate_ms is CGAL's triangulation alone; what it takes to make it our mesh is in splice_ms.
-  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override;
+  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const Move& move) override;
 
  private:
   FaceSets everything_;

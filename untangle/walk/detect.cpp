@@ -10,7 +10,7 @@
 namespace kinemesh {
 namespace {
 
-void judge(const Mesh& mesh, int f, Tangles& found) {
+void judge(const Mesh& mesh, Face f, Tangles& found) {
   const auto [a, b, c] = mesh.corners(f);
   const auto turn = orientation(a, b, c);
   if (turn == Orientation::CounterClockwise) return;
@@ -27,29 +27,29 @@ std::uint64_t look(const Mesh& mesh, int stretch, FaceMinima* minima) {
 
 void sweep(const Mesh& mesh, int stretch, Tangles& found, FaceMinima* minima) {
   for (auto doubtful = look(mesh, stretch, minima); doubtful != 0; doubtful &= doubtful - 1)
-    judge(mesh, stretch * stretch_faces + std::countr_zero(doubtful), found);
+    judge(mesh, Face(stretch * stretch_faces + std::countr_zero(doubtful)), found);
 }
 
-void append(std::vector<int>& all, const std::vector<int>& some) {
+void append(std::vector<Face>& all, const std::vector<Face>& some) {
   all.insert(all.end(), some.begin(), some.end());
 }
 
 // Where a face is among `faces`, which ascend: by a table of all faces where that pays.
 class Ranks {
  public:
-  Ranks(const Mesh& mesh, std::span<const int> faces) : faces_(faces) {
+  Ranks(const Mesh& mesh, std::span<const Face> faces) : faces_(faces) {
     if (static_cast<int>(faces.size()) < mesh.n_faces() / 64) return;
     table_.assign(mesh.n_faces(), none);
     for (std::size_t i = 0; i < faces.size(); ++i) table_[faces[i]] = static_cast<int>(i);
   }
-  int of(int face) const {  // or none
+  int of(Face face) const {  // or none
     if (!table_.empty()) return table_[face];
     const auto found = std::lower_bound(faces_.begin(), faces_.end(), face);
     return found != faces_.end() && *found == face ? static_cast<int>(found - faces_.begin()) : none;
   }
 
  private:
-  std::span<const int> faces_;
+  std::span<const Face> faces_;
   std::vector<int> table_;
 };
 
@@ -70,13 +70,13 @@ Tangles detect(const Mesh& mesh, FaceMinima* minima, const MovedBlocks* moved) {
   return all;
 }
 
-Tangles tangles_among(const Mesh& mesh, std::span<const int> faces) {
+Tangles tangles_among(const Mesh& mesh, std::span<const Face> faces) {
   Tangles found;
-  for (const int face : faces) judge(mesh, face, found);
+  for (const Face face : faces) judge(mesh, face, found);
   return found;
 }
 
-Components inverted_components(const Mesh& mesh, std::span<const int> inverted) {
+Components inverted_components(const Mesh& mesh, std::span<const Face> inverted) {
   const Ranks ranks(mesh, inverted);
   Components components{std::vector<int>(inverted.size(), none), 0};
   std::vector<int> pending;
@@ -85,10 +85,10 @@ Components inverted_components(const Mesh& mesh, std::span<const int> inverted) 
     components.of[first] = components.count;
     pending.push_back(static_cast<int>(first));
     while (!pending.empty()) {
-      const int face = inverted[pending.back()];
+      const Face face = inverted[pending.back()];
       pending.pop_back();
-      for (const int h : mesh.sides(face)) {
-        const int neighbour = mesh.face_across(h);
+      for (const Side side : Mesh::sides(face)) {
+        const Face neighbour = mesh.face_across(side);
         const int rank = neighbour == none ? none : ranks.of(neighbour);
         if (rank == none || components.of[rank] != none) continue;
         components.of[rank] = components.count;

@@ -9,8 +9,8 @@
 namespace kinemesh {
 
 struct Tangles {
-  std::vector<int> inverted;  // faces, ascending
-  std::vector<int> flat;      // faces of zero area, ascending
+  std::vector<Face> inverted;  // ascending
+  std::vector<Face> flat;      // those of zero area, ascending
 
   bool empty() const { return inverted.empty() && flat.empty(); }
 };
@@ -21,7 +21,7 @@ struct Tangles {
 Tangles detect(const Mesh& mesh, FaceMinima* minima = nullptr, const MovedBlocks* moved = nullptr);
 
 // The same for these faces, in their order.
-Tangles tangles_among(const Mesh& mesh, std::span<const int> faces);
+Tangles tangles_among(const Mesh& mesh, std::span<const Face> faces);
 
 // Inverted components [Agarwal 2008, §2]: for each face of `tangles.inverted`, in its order, the number of
 // its class under "shares an edge with", numbered by first appearance.
@@ -29,6 +29,6 @@ struct Components {
   std::vector<int> of;  // parallel to Tangles::inverted
   int count = 0;
 };
-Components inverted_components(const Mesh& mesh, std::span<const int> inverted);
+Components inverted_components(const Mesh& mesh, std::span<const Face> inverted);
 
 }  // namespace kinemesh

@@ -6,7 +6,7 @@ namespace kinemesh {
 
 void FaceSets::reset(int n_faces) {
   for (int set = 0; set < count_; ++set) {
-    for (const int f : faces_[set]) set_of_[f] = none;
+    for (const Face f : faces_[set]) set_of_[f] = none;
     faces_[set].clear();
   }
   count_ = 0;
@@ -18,7 +18,7 @@ int FaceSets::open() {
   return count_++;
 }
 
-void FaceSets::add(int face, int set) {
+void FaceSets::add(Face face, int set) {
   faces_[set].push_back(face);  // first: reset() finds what it has to undo even if this throws
   set_of_[face] = set;
 }
@@ -26,7 +26,7 @@ void FaceSets::add(int face, int set) {
 void FaceSets::absorb(int into, int other) {
   auto& all = faces_[into];
   all.insert(all.end(), faces_[other].begin(), faces_[other].end());  // may throw, the rest does not
-  for (const int f : faces_[other]) set_of_[f] = into;
+  for (const Face f : faces_[other]) set_of_[f] = into;
   faces_[other].clear();
 }
 

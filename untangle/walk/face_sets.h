@@ -15,16 +15,16 @@ class FaceSets {
   int count() const { return count_; }
   int open();  // a new empty set; returns its number
 
-  int set_of(int face) const { return set_of_[face]; }  // or none
-  const std::vector<int>& faces(int set) const { return faces_[set]; }
+  int set_of(Face face) const { return set_of_[face]; }  // or none
+  const std::vector<Face>& faces(int set) const { return faces_[set]; }
 
-  void add(int face, int set);       // pre: face is in no set
+  void add(Face face, int set);      // pre: face is in no set
   void absorb(int into, int other);  // moves all faces of `other`, which stays as an empty set
   void sort(int set);                // its faces, ascending
 
  private:
-  std::vector<int> set_of_;              // per face
-  std::vector<std::vector<int>> faces_;  // of the first count_ sets; memory of earlier ones behind them
+  std::vector<int> set_of_;               // per face
+  std::vector<std::vector<Face>> faces_;  // of the first count_ sets; memory of earlier ones behind them
   int count_ = 0;
 };
 

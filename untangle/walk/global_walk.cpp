@@ -21,12 +21,12 @@ void GlobalWalk::run(const Mesh& mesh, const Tangles& tangles, FaceSets& regions
 void GlobalWalk::start(const Mesh& mesh, const Tangles& tangles, FaceSets& regions) {
   mesh_ = &mesh;
   regions_ = &regions;
-  for (const int face : tangled_) is_tangled_[face] = false;
+  for (const Face face : tangled_) is_tangled_[face] = false;
   tangled_.clear();
   is_tangled_.resize(mesh.n_faces(), false);
   std::merge(tangles.inverted.begin(), tangles.inverted.end(), tangles.flat.begin(), tangles.flat.end(),
              std::back_inserter(tangled_));
-  for (const int face : tangled_) is_tangled_[face] = true;
+  for (const Face face : tangled_) is_tangled_[face] = true;
   shadows_.build(mesh, tangled_);
   regions.reset(mesh.n_faces());
   next_seed_ = 0;
@@ -46,12 +46,12 @@ bool GlobalWalk::advance(int n_faces) {
   return next_seed_ < tangled_.size();
 }
 
-void GlobalWalk::walk_from(int seed) {
+void GlobalWalk::walk_from(Face seed) {
   region_ = regions_->open();
   pending_.clear();
   visit(seed);
   while (!pending_.empty() && !is_too_far()) {
-    const int face = pending_.back();
+    const Face face = pending_.back();
     pending_.pop_back();
     leave(face);
   }
@@ -60,8 +60,8 @@ void GlobalWalk::walk_from(int seed) {
 
 // A walk waits for memory at each step, since the next face is known only once the last has come. So what
 // lies around some seeds is asked for side by side beforehand.
-void GlobalWalk::fetch_around(std::span<const int> seeds) const {
-  std::array<Triangle, seeds_ahead> neighbours;
+void GlobalWalk::fetch_around(std::span<const Face> seeds) const {
+  std::array<std::array<Face, 3>, seeds_ahead> neighbours;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
       neighbours[i][k] = mesh_->face_across(Mesh::side(seeds[i], k));
@@ -69,24 +69,24 @@ void GlobalWalk::fetch_around(std::span<const int> seeds) const {
     }
   }
   for (std::size_t i = 0; i < seeds.size(); ++i) {
-    for (const int face : neighbours[i]) {
+    for (const Face face : neighbours[i]) {
       if (face == none) continue;
-      for (const int v : mesh_->triangles()[face]) __builtin_prefetch(&mesh_->position(v));
+      for (const Vertex v : mesh_->triangles()[face]) __builtin_prefetch(&mesh_->position(v));
     }
   }
 }
 
-void GlobalWalk::visit(int face) {
+void GlobalWalk::visit(Face face) {
   regions_->add(face, region_);
   ++n_visited_;
   pending_.push_back(face);
 }
 
-void GlobalWalk::leave(int face) {
+void GlobalWalk::leave(Face face) {
   const bool all_sides = is_tangled_[face];  // rule (i)
   bool has_near = false;
-  for (const int side : mesh_->sides(face)) {
-    const int across = mesh_->face_across(side);
+  for (const Side side : mesh_->sides(face)) {
+    const Face across = mesh_->face_across(side);
     if (across == none || regions_->set_of(across) == region_) continue;
     const bool is_in = all_sides || is_tangled_[across];
     if (!is_in && !has_near) shadows_.find_near(mesh_->corners(face), near_);
@@ -96,11 +96,11 @@ void GlobalWalk::leave(int face) {
 }
 
 // Rules (ii) and (iii), for a side of the face that near_ is of.
-bool GlobalWalk::is_conflicting(int side) const {
-  const int a = mesh_->from(side), b = mesh_->to(side);
+bool GlobalWalk::is_conflicting(Side side) const {
+  const Vertex a = mesh_->from(side), b = mesh_->to(side);
   const Segment edge{mesh_->position(a), mesh_->position(b), a, b};
-  return shadows_.any_of(near_, edge.a, edge.b, [&](int face) {
-    return touches(edge, Corners{mesh_->corners(face), mesh_->triangles()[face]});
+  return shadows_.any_of(near_, edge.a, edge.b, [&](Face face) {
+    return touches(edge, NumberedTriangle{mesh_->corners(face), numbers_of(mesh_->triangles()[face])});
   });
 }
 

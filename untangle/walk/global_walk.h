@@ -39,21 +39,21 @@ class GlobalWalk {
   bool is_too_far() const { return n_visited_ > most_faces_; }
 
  private:
-  void walk_from(int seed);
-  void visit(int face);
-  void leave(int face);
-  bool is_conflicting(int side) const;
-  void fetch_around(std::span<const int> seeds) const;
+  void walk_from(Face seed);
+  void visit(Face face);
+  void leave(Face face);
+  bool is_conflicting(Side side) const;
+  void fetch_around(std::span<const Face> seeds) const;
 
   const Mesh* mesh_ = nullptr;
   FaceSets* regions_ = nullptr;
   int region_ = none;             // the one that is being walked
-  std::vector<int> tangled_;      // F, ascending
+  std::vector<Face> tangled_;     // F, ascending
   std::size_t next_seed_ = 0;     // in tangled_
   std::vector<bool> is_tangled_;  // per face; all false between walks but for those in tangled_
   ShadowIndex shadows_;           // of F
   std::vector<int> near_;         // in shadows_, near the face that is being left
-  std::vector<int> pending_;
+  std::vector<Face> pending_;
   int n_visited_ = 0;
   int most_faces_ = std::numeric_limits<int>::max();
 };

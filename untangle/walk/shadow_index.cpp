@@ -2,10 +2,10 @@
 
 namespace kinemesh {
 
-void ShadowIndex::build(const Mesh& mesh, std::span<const int> faces) {
+void ShadowIndex::build(const Mesh& mesh, std::span<const Face> faces) {
   faces_.assign(faces.begin(), faces.end());
   boxes_.clear();
-  for (const int face : faces) boxes_.push_back(box_of(mesh.corners(face)));
+  for (const Face face : faces) boxes_.push_back(box_of(mesh.corners(face)));
   tree_.build(boxes_);
 }
 

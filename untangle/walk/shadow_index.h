@@ -15,7 +15,7 @@ class ShadowIndex {
  public:
   // The closed shadows of `faces`, ascending, at the mesh's positions. Keeps its memory from one build to the
   // next.
-  void build(const Mesh& mesh, std::span<const int> faces);
+  void build(const Mesh& mesh, std::span<const Face> faces);
 
   // True if `hit(face)` holds for a face whose bounding box meets that of the segment a, b. Asks in ascending
   // order.
@@ -39,7 +39,7 @@ class ShadowIndex {
   }
 
  private:
-  std::vector<int> faces_;
+  std::vector<Face> faces_;
   std::vector<Box> boxes_;
   BoxTree tree_;
 };

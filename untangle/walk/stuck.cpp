@@ -5,13 +5,13 @@
 namespace kinemesh {
 namespace {
 
-int first_of(const Mesh& mesh, const Tangles& left) {
-  const auto key = [&](int face) {
-    return std::tuple(mesh.is_padding(face), mesh.is_padding(face) ? face : mesh.user_face(face));
+Face first_of(const Mesh& mesh, const Tangles& left) {
+  const auto key = [&](Face face) {
+    return std::tuple(mesh.is_padding(face), mesh.is_padding(face) ? int{face} : int{mesh.user_face(face)});
   };
-  int first = none;
+  Face first;
   for (const auto* faces : {&left.inverted, &left.flat}) {
-    for (const int face : *faces) {
+    for (const Face face : *faces) {
       if (first == none || key(face) < key(first)) first = face;
     }
   }
@@ -21,13 +21,13 @@ int first_of(const Mesh& mesh, const Tangles& left) {
 }  // namespace
 
 Defect stuck_defect(const Mesh& mesh, const Tangles& left, const std::string& who) {
-  const int face = first_of(mesh, left);
+  const Face face = first_of(mesh, left);
   const bool is_flat = std::binary_search(left.flat.begin(), left.flat.end(), face);
   const auto n = left.inverted.size() + left.flat.size();
   Defect defect;
   defect.kind = is_flat ? DefectKind::FlatFace : DefectKind::InvertedFace;
   defect.faces = {mesh.user_face(face)};
-  for (const int v : mesh.triangles()[face]) defect.vertices.push_back(mesh.user_vertex(v));
+  for (const Vertex v : mesh.triangles()[face]) defect.vertices.push_back(mesh.user_vertex(v));
   defect.where = mesh.corners(face)[0];
   defect.detail = who + " are stuck with " + std::to_string(n) +
                   (n == 1 ? " inverted or flat face left" : " inverted or flat faces left");

@@ -9,7 +9,7 @@ static const int32_t triangles[] = {4, 5, 6, 0, 1, 5, 0, 5, 4, 1, 2, 5, 2, 6, 5,
 int main(void) {
   kinemesh_mesh* mesh = NULL;
   kinemesh_stepper* stepper = NULL;
-  kinemesh_step step = {0};
+  kinemesh_step step;
   kinemesh_status status = kinemesh_mesh_create(7, xy, 8, triangles, NULL, &mesh);
   if (!status) status = kinemesh_stepper_create(mesh, NULL, &stepper);
   xy[13] = 0.5; /* vertex 6 through the edge 4 5 */

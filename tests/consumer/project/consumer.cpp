@@ -32,7 +32,7 @@ int main() {
   x[6] = {1.5, 0.5};  // through the edge 4 5
   const auto outcome = stepper.step(x, 0.1);
   if (!outcome) {
-    std::printf("%s\n", outcome.defect->message().c_str());
+    std::printf("%s\n", outcome.message().c_str());
     return 1;
   }
   print(outcome.record, data.n_faces());

@@ -43,7 +43,7 @@ TEST(Triangulator, IsDelaunayWithoutEdges) {
     ASSERT_FALSE(Triangulator().triangulate(points, {}, t));
     expect_consistent(t, points);
     for (const auto& [a, b, c] : t.triangles) {
-      for (const auto& p : points) EXPECT_NE(in_circle(points[a], points[b], points[c], p), Side::Inside);
+      for (const auto& p : points) EXPECT_NE(in_circle(points[a], points[b], points[c], p), InCircle::Inside);
     }
   }
 }

@@ -27,7 +27,7 @@ struct Vertices {
   }
 
   Segment segment(int a, int b) const { return {place[a], place[b], a, b}; }
-  Corners corners(int a, int b, int c) const { return {{place[a], place[b], place[c]}, {a, b, c}}; }
+  NumberedTriangle corners(int a, int b, int c) const { return {{place[a], place[b], place[c]}, {a, b, c}}; }
 };
 
 std::array<int, 6> shuffled(Random& random) {
@@ -70,7 +70,7 @@ Segment transformed(Segment s, int how) {
   return {transformed(s.a, how), transformed(s.b, how), s.va, s.vb};
 }
 
-Corners transformed(Corners t, int how) {
+NumberedTriangle transformed(NumberedTriangle t, int how) {
   for (Point& p : t.p) p = transformed(p, how);
   return t;
 }
@@ -79,10 +79,10 @@ Segment reversed(const Segment& s) {
   return {s.b, s.a, s.vb, s.va};
 }
 
-Corners turned(const Corners& t) {
+NumberedTriangle turned(const NumberedTriangle& t) {
   return {{t.p[1], t.p[2], t.p[0]}, {t.v[1], t.v[2], t.v[0]}};
 }
-Corners flipped(const Corners& t) {
+NumberedTriangle flipped(const NumberedTriangle& t) {
   return {{t.p[1], t.p[0], t.p[2]}, {t.v[1], t.v[0], t.v[2]}};
 }
 
@@ -155,12 +155,12 @@ TEST(Contacts, of_a_segment_with_a_triangle) {
   for (int n_shared = 0; n_shared <= 2; ++n_shared) {
     sweep(15000, 10 + n_shared, [&](const Vertices& vertices, const std::array<int, 6>& v) {
       const Segment s = vertices.segment(v[0], v[1]);
-      const Corners t = vertices.corners(v[2 - n_shared], v[3 - n_shared], v[4 - n_shared]);
+      const NumberedTriangle t = vertices.corners(v[2 - n_shared], v[3 - n_shared], v[4 - n_shared]);
       const bool expected = oracle::touches(s, t);
       touching += expected ? 1 : 0;
       for (int how = 0; how < n_transformations; ++how) {
         const Segment a = transformed(s, how);
-        const Corners b = transformed(t, how);
+        const NumberedTriangle b = transformed(t, how);
         EXPECT_EQ(touches(a, b), expected) << how;
         EXPECT_EQ(touches(reversed(a), turned(b)), expected) << how;
         EXPECT_EQ(touches(a, flipped(b)), expected) << how;
@@ -171,13 +171,13 @@ TEST(Contacts, of_a_segment_with_a_triangle) {
   EXPECT_LT(touching, 30000);
 }
 
-// The walk's rules (ii) and (iii), side by side: this is what touches(Segment, Corners) has to decide in one
-// go.
+// The walk's rules (ii) and (iii), side by side: this is what touches(Segment, NumberedTriangle) has to
+// decide in one go.
 TEST(Contacts, of_a_segment_are_its_contacts_with_the_sides_and_the_interior) {
   for (int n_shared = 0; n_shared <= 1; ++n_shared) {
     sweep(15000, 20 + n_shared, [&](const Vertices& vertices, const std::array<int, 6>& v) {
       const Segment s = vertices.segment(v[0], v[1]);
-      const Corners t = vertices.corners(v[2 - n_shared], v[3 - n_shared], v[4 - n_shared]);
+      const NumberedTriangle t = vertices.corners(v[2 - n_shared], v[3 - n_shared], v[4 - n_shared]);
       bool by_sides = strictly_inside(s.a, t.p) || strictly_inside(s.b, t.p);
       for (int k = 0; k < 3; ++k) {
         const Segment g = vertices.segment(t.v[k], t.v[(k + 1) % 3]);
@@ -192,12 +192,12 @@ TEST(Contacts, of_triangles) {
   int touching = 0;
   for (int n_shared = 0; n_shared <= 3; ++n_shared) {
     sweep(10000, 30 + n_shared, [&](const Vertices& vertices, const std::array<int, 6>& v) {
-      const Corners s = vertices.corners(v[0], v[1], v[2]);
-      const Corners t = vertices.corners(v[3 - n_shared], v[4 - n_shared], v[5 - n_shared]);
+      const NumberedTriangle s = vertices.corners(v[0], v[1], v[2]);
+      const NumberedTriangle t = vertices.corners(v[3 - n_shared], v[4 - n_shared], v[5 - n_shared]);
       const bool expected = oracle::touches(s, t);
       touching += expected ? 1 : 0;
       for (int how = 0; how < n_transformations; ++how) {
-        const Corners a = transformed(s, how), b = transformed(t, how);
+        const NumberedTriangle a = transformed(s, how), b = transformed(t, how);
         EXPECT_EQ(touches(a, b), expected) << how;
         EXPECT_EQ(touches(flipped(b), turned(a)), expected) << how;
       }
@@ -211,12 +211,12 @@ TEST(Contacts, overlapping_interiors) {
   int overlapping = 0;
   for (int n_shared = 0; n_shared <= 3; ++n_shared) {
     sweep(10000, 40 + n_shared, [&](const Vertices& vertices, const std::array<int, 6>& v) {
-      const Corners s = vertices.corners(v[0], v[1], v[2]);
-      const Corners t = vertices.corners(v[3 - n_shared], v[4 - n_shared], v[5 - n_shared]);
+      const NumberedTriangle s = vertices.corners(v[0], v[1], v[2]);
+      const NumberedTriangle t = vertices.corners(v[3 - n_shared], v[4 - n_shared], v[5 - n_shared]);
       const bool expected = oracle::interiors_overlap(s.p, t.p);
       overlapping += expected ? 1 : 0;
       for (int how = 0; how < n_transformations; ++how) {
-        const Corners a = transformed(s, how), b = transformed(t, how);
+        const NumberedTriangle a = transformed(s, how), b = transformed(t, how);
         EXPECT_EQ(interiors_overlap(a.p, b.p), expected) << how;
         EXPECT_EQ(interiors_overlap(flipped(b).p, turned(a).p), expected) << how;
       }
@@ -230,13 +230,13 @@ TEST(Contacts, different_vertices_at_one_place) {
   EXPECT_TRUE(segments_touch({o, p, 0, 1}, {o, q, 2, 3}));
   EXPECT_FALSE(segments_touch({o, p, 0, 1}, {o, q, 0, 3}));
   EXPECT_TRUE(segments_touch({o, o, 0, 1}, {o, q, 0, 3}));
-  EXPECT_TRUE(touches(Segment{o, o, 0, 9}, Corners{{o, p, q}, {0, 1, 2}}));
-  EXPECT_FALSE(touches(Segment{o, {-1, 0}, 0, 9}, Corners{{o, p, q}, {0, 1, 2}}));
-  EXPECT_TRUE(touches(Segment{o, {-1, 0}, 8, 9}, Corners{{o, p, q}, {0, 1, 2}}));
+  EXPECT_TRUE(touches(Segment{o, o, 0, 9}, NumberedTriangle{{o, p, q}, {0, 1, 2}}));
+  EXPECT_FALSE(touches(Segment{o, {-1, 0}, 0, 9}, NumberedTriangle{{o, p, q}, {0, 1, 2}}));
+  EXPECT_TRUE(touches(Segment{o, {-1, 0}, 8, 9}, NumberedTriangle{{o, p, q}, {0, 1, 2}}));
 }
 
 TEST(Contacts, shared_corner_on_the_opposite_side_of_a_flat_triangle) {
-  const Corners flat{{Point{0, 0}, {-1, 0}, {1, 0}}, {0, 1, 2}};
+  const NumberedTriangle flat{{Point{0, 0}, {-1, 0}, {1, 0}}, {0, 1, 2}};
   EXPECT_TRUE(touches(Segment{{0, 0}, {0, 1}, 0, 9}, flat));
   EXPECT_FALSE(touches(Segment{{1, 0}, {0, 1}, 2, 9}, flat));
   EXPECT_FALSE(touches(Segment{{-1, 0}, {1, 0}, 1, 2}, flat));  // a side

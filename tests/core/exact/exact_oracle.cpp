@@ -80,7 +80,7 @@ bool on(const Point& p, const Point& a, const Point& b) {
   return !intersection(hull(p, p), hull(a, b)).empty();
 }
 
-std::vector<int> shared(const Corners& s, const Corners& t) {
+std::vector<int> shared(const NumberedTriangle& s, const NumberedTriangle& t) {
   std::vector<int> corners;  // of s
   for (int k = 0; k < 3; ++k) {
     if (std::find(t.v.begin(), t.v.end(), s.v[k]) != t.v.end()) corners.push_back(k);
@@ -89,11 +89,11 @@ std::vector<int> shared(const Corners& s, const Corners& t) {
 }
 
 // The place of corner k is taken by another point of the triangle too.
-bool corner_doubled(const Corners& t, int k) {
+bool corner_doubled(const NumberedTriangle& t, int k) {
   return on(t.p[k], t.p[(k + 1) % 3], t.p[(k + 2) % 3]);
 }
 
-int corner(const Corners& t, int vertex) {
+int corner(const NumberedTriangle& t, int vertex) {
   return static_cast<int>(std::find(t.v.begin(), t.v.end(), vertex) - t.v.begin());
 }
 
@@ -103,10 +103,10 @@ Orientation orientation(const Point& a, const Point& b, const Point& c) {
   return static_cast<Orientation>(cross(difference(a, c), difference(b, c)).sign());
 }
 
-Side in_circle(const Point& a, const Point& b, const Point& c, const Point& d) {
+InCircle in_circle(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Vector ad = difference(a, d), bd = difference(b, d), cd = difference(c, d);
   const Integer det = square(ad) * cross(bd, cd) + square(bd) * cross(cd, ad) + square(cd) * cross(ad, bd);
-  return static_cast<Side>(det.sign());
+  return static_cast<InCircle>(det.sign());
 }
 
 Hull hull(const Point& a, const Point& b) {
@@ -155,7 +155,7 @@ bool segments_cross(const Point& a, const Point& b, const Point& c, const Point&
          !on(c, a, b) && !on(d, a, b);
 }
 
-bool touches(const Segment& s, const Corners& t) {
+bool touches(const Segment& s, const NumberedTriangle& t) {
   const int a = corner(t, s.va), b = corner(t, s.vb);
   if (a < 3 && b < 3) return false;
   const Hull common = intersection(hull(s.a, s.b), hull(t.p));
@@ -164,7 +164,7 @@ bool touches(const Segment& s, const Corners& t) {
          contains_another(common, fraction(a < 3 ? s.a : s.b));
 }
 
-bool touches(const Corners& s, const Corners& t) {
+bool touches(const NumberedTriangle& s, const NumberedTriangle& t) {
   const std::vector<int> corners = shared(s, t);
   if (corners.size() == 3) return false;
   if (corners.size() == 2 && (flat(s.p) || flat(t.p))) return true;

@@ -12,7 +12,7 @@ namespace kinemesh::oracle {
 
 // Signs of the determinants, for all finite doubles: coordinates are integers in units of 2^-1074.
 Orientation orientation(const Point& a, const Point& b, const Point& c);
-Side in_circle(const Point& a, const Point& b, const Point& c, const Point& d);
+InCircle in_circle(const Point& a, const Point& b, const Point& c, const Point& d);
 
 // Contacts of points with small integer coordinates (up to about 1000).
 struct Fraction2 {
@@ -27,8 +27,8 @@ Hull intersection(const Hull& a, const Hull& b);  // may repeat points
 
 bool segments_touch(const Segment& s, const Segment& t);
 bool segments_cross(const Point& a, const Point& b, const Point& c, const Point& d);
-bool touches(const Segment& s, const Corners& t);
-bool touches(const Corners& s, const Corners& t);
+bool touches(const Segment& s, const NumberedTriangle& t);
+bool touches(const NumberedTriangle& s, const NumberedTriangle& t);
 bool interiors_overlap(const std::array<Point, 3>& s, const std::array<Point, 3>& t);
 
 }  // namespace kinemesh::oracle

@@ -77,8 +77,8 @@ void expect_right(const Points& p) {
   EXPECT_EQ(orientation(a, b, c), turn) << text(p);
   EXPECT_EQ(orientation(b, c, a), turn) << text(p);
   EXPECT_EQ(orientation(b, a, c), -turn) << text(p);
-  const Side side = oracle::in_circle(a, b, c, d);
-  const Side opposite = static_cast<Side>(-static_cast<int>(side));
+  const InCircle side = oracle::in_circle(a, b, c, d);
+  const InCircle opposite = static_cast<InCircle>(-static_cast<int>(side));
   EXPECT_EQ(in_circle_exact(a, b, c, d), side) << text(p);
   EXPECT_EQ(in_circle(a, b, c, d), side) << text(p);
   EXPECT_EQ(in_circle(b, c, a, d), side) << text(p);
@@ -96,9 +96,9 @@ TEST(Predicates, signs_of_simple_figures) {
   EXPECT_EQ(orientation({0, 0}, {1, 0}, {0, 1}), Orientation::CounterClockwise);
   EXPECT_EQ(orientation({0, 0}, {0, 1}, {1, 0}), Orientation::Clockwise);
   EXPECT_EQ(orientation({0, 0}, {1, 1}, {3, 3}), Orientation::Collinear);
-  EXPECT_EQ(in_circle({1, 0}, {0, 1}, {-1, 0}, {0, 0}), Side::Inside);
-  EXPECT_EQ(in_circle({1, 0}, {0, 1}, {-1, 0}, {0, -1}), Side::On);
-  EXPECT_EQ(in_circle({1, 0}, {0, 1}, {-1, 0}, {0, -2}), Side::Outside);
+  EXPECT_EQ(in_circle({1, 0}, {0, 1}, {-1, 0}, {0, 0}), InCircle::Inside);
+  EXPECT_EQ(in_circle({1, 0}, {0, 1}, {-1, 0}, {0, -1}), InCircle::On);
+  EXPECT_EQ(in_circle({1, 0}, {0, 1}, {-1, 0}, {0, -2}), InCircle::Outside);
 }
 
 TEST(Predicates, points_of_a_line_moved_by_ulps) {
@@ -204,7 +204,7 @@ TEST(Predicates, wrong_sign_from_one_denormal) {
 // The minor of b and c underflows to zero, but weighs most by the lift of a.
 TEST(Predicates, wrong_side_from_an_underflow_times_a_lift) {
   const Points p{Point{0x1p500, 0x1p500}, {0x1p-200, 0.0}, {0.0, 0x1p-880}, {0.0, 0.0}};
-  EXPECT_EQ(in_circle(p[0], p[1], p[2], p[3]), Side::Inside);
+  EXPECT_EQ(in_circle(p[0], p[1], p[2], p[3]), InCircle::Inside);
   expect_right(p);
 }
 

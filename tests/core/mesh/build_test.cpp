@@ -72,13 +72,13 @@ TEST(Build, NumbersBothWays) {
   EXPECT_EQ(mesh.n_user_vertices(), data.n_vertices());
   EXPECT_EQ(mesh.n_vertices(), data.n_vertices() + 4);
   EXPECT_EQ(mesh.n_user_faces(), data.n_faces());
-  for (int user = 0; user < data.n_vertices(); ++user) {
+  for (const UserVertex user : Numbers<UserVertex>(data.n_vertices())) {
     EXPECT_EQ(mesh.user_vertex(mesh.vertex_of_user(user)), user);
     EXPECT_EQ(mesh.position(mesh.vertex_of_user(user)), data.points[user]);
   }
-  for (const int v : mesh.frame()) EXPECT_EQ(mesh.user_vertex(v), none);
+  for (const Vertex v : mesh.frame()) EXPECT_EQ(mesh.user_vertex(v), none);
   std::vector<int> numbers;
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     if (mesh.is_padding(f)) {
       EXPECT_EQ(mesh.user_face(f), none);
     } else {
@@ -97,18 +97,19 @@ TEST(Build, OrdersVerticesAlongACurve) {
   const int n = 4000;
   const Mesh mesh = build_mesh(random_square(n, random));
   double length = 0;
-  for (int v = 1; v < n; ++v) length += glm::distance(mesh.position(v - 1), mesh.position(v));
+  const auto x = mesh.positions();
+  for (int v = 1; v < n; ++v) length += glm::distance(x[v - 1], x[v]);
   EXPECT_LT(length, 2.0 * std::sqrt(n));  // a shuffle: about n / 2
-  for (int f = 1; f < mesh.n_faces(); ++f) {
-    const auto lowest = [&](int g) {
-      return *std::min_element(mesh.triangles()[g].begin(), mesh.triangles()[g].end());
-    };
-    EXPECT_LE(lowest(f - 1), lowest(f));
+  Vertex before{0};
+  for (const auto& t : mesh.triangles()) {
+    const Vertex lowest = *std::min_element(t.begin(), t.end());
+    EXPECT_LE(before, lowest);
+    before = lowest;
   }
 }
 
-int label_beside(const Mesh& mesh, int side) {
-  const int face = Mesh::face_of(side);
+int label_beside(const Mesh& mesh, Side side) {
+  const Face face = Mesh::face_of(side);
   return face == none ? padding_label : mesh.label(face);
 }
 
@@ -116,7 +117,7 @@ TEST(Build, ConstrainsBordersInterfacesAndMarkersWithTheirSides) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Mesh mesh = build_mesh(decorated(seed), {.frame = 0.25});
     int seen = 0;
-    for (const int e : all_edges(mesh)) {
+    for (const Side e : all_edges(mesh)) {
       const int c = mesh.constraint_of(e);
       if (c == none) {
         EXPECT_EQ(label_beside(mesh, e), label_beside(mesh, mesh.opposite(e)));
@@ -125,7 +126,7 @@ TEST(Build, ConstrainsBordersInterfacesAndMarkersWithTheirSides) {
       ++seen;
       const auto& constraint = mesh.constraints()[c];
       const bool is_along = mesh.from(e) == constraint.from;
-      const int left = is_along ? e : mesh.opposite(e), right = is_along ? mesh.opposite(e) : e;
+      const Side left = is_along ? e : mesh.opposite(e), right = is_along ? mesh.opposite(e) : e;
       EXPECT_EQ(is_along ? mesh.to(e) : mesh.from(e), constraint.to);
       EXPECT_EQ(label_beside(mesh, left), constraint.left);
       EXPECT_EQ(label_beside(mesh, right), constraint.right);
@@ -158,9 +159,9 @@ TEST(Build, GivesAnEdgeToTheFirstMarkerThatHoldsIt) {
 
 TEST(Build, KeepsFixedVertices) {
   const Mesh mesh = build_mesh(four_triangles(), {.frame = 0.5, .fixed = {1, 4}});
-  for (int user = 0; user < 5; ++user)
+  for (const UserVertex user : Numbers<UserVertex>(5))
     EXPECT_EQ(mesh.is_fixed(mesh.vertex_of_user(user)), user == 1 || user == 4);
-  for (const int v : mesh.frame()) EXPECT_FALSE(mesh.is_fixed(v));
+  for (const Vertex v : mesh.frame()) EXPECT_FALSE(mesh.is_fixed(v));
 }
 
 TEST(Build, PlacesTheFrameAroundTheDomain) {
@@ -207,7 +208,7 @@ TEST(Measure, IsThatOfEachFaceInTurn) {
     for (Point& p : mesh.positions())
       p += Point(random.between(-shift, shift), random.between(-shift, shift));
     double area = 0.0, min_area = std::numeric_limits<double>::infinity(), min_tangent = min_area;
-    for (const int face : mesh.faces_in_user_order()) {
+    for (const Face face : mesh.faces_in_user_order()) {
       const auto [a, b, c] = mesh.corners(face);
       const double face_area = 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
       area += face_area;
@@ -245,10 +246,10 @@ TEST(Build, FindsTheMarkedEdgesOfAHubQuickly) {
 
 TEST(Measure, IsZeroDegreesForFlatAndInvertedFaces) {
   Mesh mesh = build_mesh(four_triangles());
-  mesh.positions()[mesh.vertex_of_user(4)] = {2, 1};
+  mesh.positions()[mesh.vertex_of_user(UserVertex(4))] = {2, 1};
   EXPECT_EQ(measure(mesh).min_angle_deg, 0);
   EXPECT_EQ(measure(mesh).min_area, 0);
-  mesh.positions()[mesh.vertex_of_user(4)] = {3, 1};
+  mesh.positions()[mesh.vertex_of_user(UserVertex(4))] = {3, 1};
   EXPECT_EQ(measure(mesh).min_angle_deg, 0);
   EXPECT_DOUBLE_EQ(measure(mesh).min_area, -1);
   EXPECT_DOUBLE_EQ(measure(mesh).area, 4);

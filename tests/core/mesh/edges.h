@@ -7,18 +7,18 @@
 
 namespace kinemesh::test {
 
-inline std::vector<int> all_edges(const Mesh& mesh) {
-  std::vector<int> edges;
-  for (int face = 0; face < mesh.n_faces(); ++face)
-    for (const int side : Mesh::sides(face))
+inline std::vector<Side> all_edges(const Mesh& mesh) {
+  std::vector<Side> edges;
+  for (const Face face : mesh.faces())
+    for (const Side side : Mesh::sides(face))
       if (mesh.is_lower(side)) edges.push_back(side);
   return edges;
 }
 
 // The lower side of a random side's edge.
 template <class Random>
-int random_edge(const Mesh& mesh, Random& random) {
-  return mesh.lower(Mesh::side(random.below(mesh.n_faces()), random.below(3)));
+Side random_edge(const Mesh& mesh, Random& random) {
+  return mesh.lower(Mesh::side(Face(random.below(mesh.n_faces())), random.below(3)));
 }
 
 }  // namespace kinemesh::test

@@ -23,7 +23,7 @@ double hull_area(const Mesh& mesh) {
 
 double padding_area(const Mesh& mesh) {
   double area = 0;
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     const auto [a, b, c] = mesh.corners(f);
     if (mesh.is_padding(f)) area += 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
   }
@@ -121,7 +121,7 @@ TEST(Embed, LeavesIsolatedVerticesOutside) {
   data.points.push_back({0, 0});
   const Mesh mesh = build_mesh(data, {.frame = 0.25});
   EXPECT_EQ(mesh.n_user_vertices(), 8);
-  for (const int user : {5, 6, 7}) EXPECT_TRUE(mesh.is_isolated(mesh.vertex_of_user(user)));
+  for (const int user : {5, 6, 7}) EXPECT_TRUE(mesh.is_isolated(mesh.vertex_of_user(UserVertex(user))));
   EXPECT_LT(mesh.position(mesh.frame()[2]).x, 4) << "the frame is around what has faces";
   EXPECT_FALSE(validate(mesh));
 }

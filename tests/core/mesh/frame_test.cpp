@@ -13,7 +13,7 @@ std::vector<Point> positions(const Mesh& mesh) {
 }
 
 // The user's vertex the hull is said to have moved at, or none.
-int moved_hull(const Mesh& mesh, int user, const Point& p) {
+UserVertex moved_hull(const Mesh& mesh, UserVertex user, const Point& p) {
   auto next = positions(mesh);
   next[mesh.vertex_of_user(user)] = p;
   const auto defect = hull_defect(mesh, next);
@@ -24,43 +24,44 @@ int moved_hull(const Mesh& mesh, int user, const Point& p) {
 
 TEST(HullDefect, NamesACornerThatMoves) {
   const Mesh mesh = build_mesh(four_triangles());
-  EXPECT_EQ(moved_hull(mesh, 4, {1.5, 0.5}), none);
+  EXPECT_EQ(moved_hull(mesh, UserVertex(4), {1.5, 0.5}), none);
   for (const Point& p :
        {Point(3, 3), Point(1.5, 1.5), Point(2, 2.5), Point(2, 1.5), Point(1, 1), Point(2, 0)})
-    EXPECT_EQ(moved_hull(mesh, 2, p), 2) << p.x << " " << p.y;
+    EXPECT_EQ(moved_hull(mesh, UserVertex(2), p), 2) << p.x << " " << p.y;
 }
 
 // Also onto the chord between its neighbours, which leaves a convex border, but another one.
 TEST(HullDefect, NamesACornerThatIsCutOff) {
-  EXPECT_EQ(moved_hull(build_mesh(four_triangles()), 2, {1.25, 0.75}), 2);
+  EXPECT_EQ(moved_hull(build_mesh(four_triangles()), UserVertex(2), {1.25, 0.75}), 2);
 }
 
 TEST(HullDefect, LetsVerticesSlideAlongASide) {
   Random random(1);
   const Mesh mesh = build_mesh(random_grid(4, 2, random));  // vertices 0 to 4 at y = 0
-  EXPECT_EQ(moved_hull(mesh, 2, {4.9, 0}), none);
-  EXPECT_EQ(moved_hull(mesh, 2, {2.1, 0}), none);
-  EXPECT_EQ(moved_hull(mesh, 2, {4, 1e-30}), 2);
-  EXPECT_EQ(moved_hull(mesh, 2, {4, -1e-300}), 2);
-  EXPECT_EQ(moved_hull(mesh, 2, {6, 0}), 2) << "on its neighbour";
-  EXPECT_EQ(moved_hull(mesh, 2, {7, 0}), 2) << "past its neighbour";
+  EXPECT_EQ(moved_hull(mesh, UserVertex(2), {4.9, 0}), none);
+  EXPECT_EQ(moved_hull(mesh, UserVertex(2), {2.1, 0}), none);
+  EXPECT_EQ(moved_hull(mesh, UserVertex(2), {4, 1e-30}), 2);
+  EXPECT_EQ(moved_hull(mesh, UserVertex(2), {4, -1e-300}), 2);
+  EXPECT_EQ(moved_hull(mesh, UserVertex(2), {6, 0}), 2) << "on its neighbour";
+  EXPECT_EQ(moved_hull(mesh, UserVertex(2), {7, 0}), 2) << "past its neighbour";
   auto next = positions(mesh);
-  next[mesh.vertex_of_user(1)] = {3, 0};
-  next[mesh.vertex_of_user(2)] = {5, 0};
-  next[mesh.vertex_of_user(3)] = {7, 0};
+  next[mesh.vertex_of_user(UserVertex(1))] = {3, 0};
+  next[mesh.vertex_of_user(UserVertex(2))] = {5, 0};
+  next[mesh.vertex_of_user(UserVertex(3))] = {7, 0};
   EXPECT_FALSE(hull_defect(mesh, next));
-  std::swap(next[mesh.vertex_of_user(1)], next[mesh.vertex_of_user(2)]);
+  std::swap(next[mesh.vertex_of_user(UserVertex(1))], next[mesh.vertex_of_user(UserVertex(2))]);
   EXPECT_TRUE(hull_defect(mesh, next));
 }
 
 TEST(HullDefect, IsNoConcernWithAFrame) {
   const Mesh mesh = build_mesh(four_triangles(), {.frame = 1});
-  EXPECT_EQ(moved_hull(mesh, 2, {2.5, 2.5}), none);
+  EXPECT_EQ(moved_hull(mesh, UserVertex(2), {2.5, 2.5}), none);
 }
 
 TEST(Follow, LeavesTheFrameWhileTheDomainIsWellInside) {
   Mesh mesh = build_mesh(four_triangles(), {.frame = 0.5});
-  for (int user = 0; user < 5; ++user) mesh.positions()[mesh.vertex_of_user(user)] += Point(0.5, -0.5);
+  for (const UserVertex user : Numbers<UserVertex>(5))
+    mesh.positions()[mesh.vertex_of_user(user)] += Point(0.5, -0.5);
   auto next = positions(mesh);
   EXPECT_FALSE(follow(mesh, next));
   EXPECT_EQ(next, positions(mesh));
@@ -69,12 +70,13 @@ TEST(Follow, LeavesTheFrameWhileTheDomainIsWellInside) {
 TEST(Follow, MovesTheFrameWithADriftingDomain) {
   Mesh mesh = build_mesh(four_triangles(), {.frame = 0.5});
   for (int step = 0; step < 100; ++step) {
-    for (int user = 0; user < 5; ++user) mesh.positions()[mesh.vertex_of_user(user)] += Point(0.25, 0.125);
+    for (const UserVertex user : Numbers<UserVertex>(5))
+      mesh.positions()[mesh.vertex_of_user(user)] += Point(0.25, 0.125);
     auto next = positions(mesh);
     EXPECT_FALSE(follow(mesh, next));
     mesh.swap_positions(next);
-    for (const int v : mesh.hull()) EXPECT_EQ(mesh.user_vertex(v), none);
-    for (int user = 0; user < 5; ++user)
+    for (const Vertex v : mesh.hull()) EXPECT_EQ(mesh.user_vertex(v), none);
+    for (const UserVertex user : Numbers<UserVertex>(5))
       EXPECT_FALSE(is_outside_hull(mesh, mesh.position(mesh.vertex_of_user(user))));
   }
 }
@@ -83,11 +85,11 @@ TEST(Follow, MovesTheFrameWithADriftingDomain) {
 TEST(Follow, IsADefectWhereACornerWouldBeInfinite) {
   const Mesh mesh = build_mesh(four_triangles(), {.frame = 0.5});
   auto next = positions(mesh);
-  for (int user = 0; user < 5; ++user) next[mesh.vertex_of_user(user)] *= 8e307;
+  for (const UserVertex user : Numbers<UserVertex>(5)) next[mesh.vertex_of_user(user)] *= 8e307;
   const auto defect = follow(mesh, next);
   ASSERT_TRUE(defect);
   EXPECT_EQ(defect->kind, DefectKind::NonFinitePosition);
-  EXPECT_EQ(defect->vertices, std::vector<int>{none});
+  EXPECT_EQ(defect->vertices, std::vector<UserVertex>{none});
 }
 
 TEST(IsOutsideHull, IsExact) {

@@ -47,7 +47,7 @@ MeshData together(const MeshData& a, const MeshData& b) {
 
 // Neither arrays nor files of this size are made here.
 TEST(Refused, MoreThanNumbersGo) {
-  EXPECT_EQ(2 * Mesh::side(most_items - 1, 2) + 1, std::numeric_limits<int>::max() - 10);
+  EXPECT_EQ(2 * Mesh::side(Face(most_items - 1), 2) + 1, std::numeric_limits<int>::max() - 10);
   EXPECT_NO_THROW(check_size(most_items, "faces"));
   try {
     check_size(std::size_t{1} << 28, "faces");

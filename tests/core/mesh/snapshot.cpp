@@ -6,7 +6,7 @@ namespace kinemesh::test {
 
 Snapshot snapshot_of(const Mesh& mesh) {
   Snapshot snapshot;
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     FaceSnapshot face{mesh.triangles()[f], {}, {}, mesh.label(f), mesh.user_face(f)};
     for (int k = 0; k < 3; ++k) {
       face.opposite[k] = mesh.opposite(Mesh::side(f, k));
@@ -14,7 +14,7 @@ Snapshot snapshot_of(const Mesh& mesh) {
     }
     snapshot.faces.push_back(face);
   }
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     snapshot.fans.push_back(mesh.is_isolated(v) ? none : start_of_fan(mesh, v));
     snapshot.coordinates.insert(snapshot.coordinates.end(), {mesh.position(v).x, mesh.position(v).y});
   }

@@ -1,6 +1,7 @@
 // Everything a mesh holds that a repair may change, to compare bit for bit.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "kinemesh/mesh.h"
@@ -8,14 +9,17 @@
 namespace kinemesh::test {
 
 struct FaceSnapshot {
-  Triangle corners, opposite, constraints;  // per side the two latter
-  int label, user_face;
+  MeshTriangle corners;
+  Sides opposite;
+  std::array<int, 3> constraints;  // per side
+  int label;
+  UserFace user_face;
   bool operator==(const FaceSnapshot&) const = default;
 };
 
 struct Snapshot {
   std::vector<FaceSnapshot> faces;
-  std::vector<int> fans;  // per vertex: where its fan starts, or none
+  std::vector<Side> fans;  // per vertex: where its fan starts, or none
   std::vector<double> coordinates;
   bool operator==(const Snapshot&) const = default;
 };

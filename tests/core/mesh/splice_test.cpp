@@ -46,11 +46,11 @@ void expect_openmesh_agrees(const Mesh& mesh) {
   const OpenMeshCopy copy = copy_of(mesh);
   ASSERT_EQ(static_cast<int>(copy.n_faces()), mesh.n_faces());
   ASSERT_EQ(static_cast<int>(copy.n_edges()), mesh.n_edges());
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     const OpenMesh::VertexHandle vertex(v);
     std::vector<int> neighbours, faces, theirs, their_faces;
-    for_each_neighbour(mesh, v, [&](int w, int) { neighbours.push_back(w); });
-    for_each_side_from(mesh, v, [&](int side) { faces.push_back(Mesh::face_of(side)); });
+    for_each_neighbour(mesh, v, [&](Vertex w, Side) { neighbours.push_back(w); });
+    for_each_side_from(mesh, v, [&](Side side) { faces.push_back(Mesh::face_of(side)); });
     for (auto w = copy.cvv_ccwiter(vertex); w.is_valid(); ++w) theirs.push_back(w->idx());
     for (auto f = copy.cvf_ccwiter(vertex); f.is_valid(); ++f) their_faces.push_back(f->idx());
     turn_to_front(theirs, neighbours);
@@ -61,8 +61,8 @@ void expect_openmesh_agrees(const Mesh& mesh) {
     for (Spokes s(mesh, v); !s.is_done(); s.advance()) spokes.insert(s.end());
     EXPECT_EQ(spokes, std::set(theirs.begin(), theirs.end())) << v;
   }
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    for (const int side : Mesh::sides(f)) {
+  for (const Face f : mesh.faces()) {
+    for (const Side side : Mesh::sides(f)) {
       const auto h =
           copy.find_halfedge(OpenMesh::VertexHandle(mesh.from(side)), OpenMesh::VertexHandle(mesh.to(side)));
       EXPECT_EQ(copy.face_handle(h).idx(), f);
@@ -76,12 +76,12 @@ TEST(Splice, AgreesWithOpenMesh) {
     Mesh mesh = sample(seed);
     Random random(seed);
     for (int flip = 0; flip < 150; ++flip) {
-      const int side = random_edge(mesh, random);
+      const Side side = random_edge(mesh, random);
       if (!can_flip(mesh, side)) continue;
-      const int c = mesh.apex(side), d = mesh.apex(mesh.opposite(side));
+      const Vertex c = mesh.apex(side), d = mesh.apex(mesh.opposite(side));
       auto patch = flip_of(mesh, side);
       mesh.splice(patch);
-      const int turned = Mesh::side(patch.faces[0], 2);
+      const Side turned = Mesh::side(patch.faces[0], 2);
       EXPECT_EQ(mesh.from(turned), c);
       EXPECT_EQ(mesh.to(turned), d);
       const auto defect = validate_connectivity(mesh);
@@ -98,10 +98,10 @@ TEST(Splice, IsTakenBackByWhatWasSaved) {
     Random random(seed);
     std::vector<FaceState> saved;
     for (int flip = 0; flip < 50; ++flip) {
-      const int side = random_edge(mesh, random);
+      const Side side = random_edge(mesh, random);
       if (!can_flip(mesh, side)) continue;
       auto patch = flip_of(mesh, side);
-      for (const int face : patch.faces) saved.push_back(mesh.save(face));
+      for (const Face face : patch.faces) saved.push_back(mesh.save(face));
       mesh.splice(patch);
     }
     ASSERT_FALSE(saved.empty());
@@ -120,16 +120,16 @@ TEST(Flip, DoesWhatItsPatchDoes) {
     Random random(seed);
     int flips = 0;
     for (int i = 0; i < 150; ++i) {
-      const int edge = random_edge(flipped, random);
+      const Side edge = random_edge(flipped, random);
       if (!can_flip(flipped, edge)) continue;
       ASSERT_TRUE(flipped.is_flippable(edge));
       auto patch = flip_of(flipped, edge);
       Mesh spliced = flipped;
       spliced.splice(patch);
-      const int turned = flipped.flip(edge);
+      const Side turned = flipped.flip(edge);
       EXPECT_EQ(flipped.is_lower(turned), true);
       EXPECT_EQ(Mesh::face_of(turned), patch.faces[0]);
-      for (int face = 0; face < flipped.n_faces(); ++face) {
+      for (const Face face : flipped.faces()) {
         auto corners = spliced.triangles()[face];
         const bool is_new = face == patch.faces[0] || face == patch.faces[1];
         if (is_new) std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
@@ -147,8 +147,8 @@ TEST(Flip, DoesWhatItsPatchDoes) {
 // Four times the same edge: back to where it was, but for where faces start.
 TEST(Flip, IsUndoneByThreeMore) {
   Mesh mesh = sample(1);
-  int edge = 0;
-  for (const int e : all_edges(mesh))
+  Side edge{0};
+  for (const Side e : all_edges(mesh))
     if (can_flip(mesh, e)) edge = e;
   const auto ends = [&] { return std::pair(mesh.from(edge), mesh.to(edge)); };
   const auto first = ends();
@@ -163,7 +163,7 @@ TEST(Flip, IsUndoneByThreeMore) {
 TEST(Flip, IsNotForConstrainedEdgesAndTheBorder) {
   const Mesh mesh = sample(2);  // labels, a frame
   int constrained = 0, outer = 0, flippable = 0;
-  for (const int edge : all_edges(mesh)) {
+  for (const Side edge : all_edges(mesh)) {
     constrained += mesh.constraint_of(edge) != none;
     outer += mesh.opposite(edge) == none;
     if (!mesh.is_flippable(edge)) continue;
@@ -178,7 +178,7 @@ TEST(Flip, IsNotForConstrainedEdgesAndTheBorder) {
 
 TEST(Splice, CountsFacesThatChangeSides) {
   Mesh mesh = build_mesh(four_triangles());
-  int inner = 0;
+  Side inner{0};
   while (!can_flip(mesh, inner)) ++inner;
   auto patch = flip_of(mesh, inner);
   patch.labels = {padding_label, padding_label};
@@ -193,9 +193,9 @@ TEST(SideNumbers, AreWhatAMapHolds) {
   for (int n = 1; n <= 40; ++n) {
     SideNumbers table;
     table.reset(n);
-    std::map<int, int> expected;
+    std::map<Side, int> expected;
     for (int i = 0; i < 400; ++i) {
-      const int side = random.below(60);
+      const Side side(random.below(60));
       if (expected.contains(side)) {
         table.erase(side);
         expected.erase(side);
@@ -203,7 +203,8 @@ TEST(SideNumbers, AreWhatAMapHolds) {
         table.insert(side, i);
         expected[side] = i;
       }
-      for (int s = 0; s < 60; ++s) ASSERT_EQ(table.find(s), expected.contains(s) ? expected[s] : none);
+      for (const Side s : Numbers<Side>(60))
+        ASSERT_EQ(table.find(s), expected.contains(s) ? expected[s] : none);
     }
   }
 }

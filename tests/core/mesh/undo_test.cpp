@@ -16,7 +16,7 @@ namespace {
 void flip_some(Undo& undo, Random& random) {
   const Mesh& mesh = undo.mesh();
   for (int i = 0; i < mesh.n_edges(); ++i) {
-    const int side = random_edge(mesh, random);
+    const Side side = random_edge(mesh, random);
     if (mesh.is_flippable(side) && mesh.apex(side) != mesh.apex(mesh.opposite(side))) undo.flip(side);
   }
 }

@@ -27,13 +27,13 @@ Defect defect_of(const Mesh& mesh) {
 
 Mesh square_with_centre_at(const Point& p) {
   Mesh mesh = build_mesh(four_triangles());
-  mesh.positions()[mesh.vertex_of_user(4)] = p;
+  mesh.positions()[mesh.vertex_of_user(UserVertex(4))] = p;
   return mesh;
 }
 
-int side_between(const Mesh& mesh, int user_a, int user_b) {
-  for (int face = 0; face < mesh.n_faces(); ++face)
-    for (const int side : Mesh::sides(face))
+Side side_between(const Mesh& mesh, UserVertex user_a, UserVertex user_b) {
+  for (const Face face : mesh.faces())
+    for (const Side side : Mesh::sides(face))
       if (mesh.user_vertex(mesh.from(side)) == user_a && mesh.user_vertex(mesh.to(side)) == user_b)
         return side;
   return none;
@@ -70,7 +70,7 @@ TEST(Validate, NamesInvertedAndFlatFaces) {
 
 TEST(Validate, NamesAHullThatIsNotConvex) {
   Mesh mesh = square_with_centre_at({0.5, 0.5});
-  mesh.positions()[mesh.vertex_of_user(2)] = {0.8, 0.8};  // all faces still upright
+  mesh.positions()[mesh.vertex_of_user(UserVertex(2))] = {0.8, 0.8};  // all faces still upright
   const auto defect = defect_of(mesh);
   EXPECT_EQ(defect.kind, DefectKind::HullMoved);
   EXPECT_THAT(defect.vertices, ElementsAre(2));
@@ -85,7 +85,7 @@ TEST(Validate, SeesAHullThatGoesAroundTwice) {
   Mesh mesh = build_mesh(data);
   for (int i = 0; i < n; ++i) {
     const double angle = 4 * std::numbers::pi * (i + 0.1) / n;
-    mesh.positions()[mesh.vertex_of_user(i)] = {std::cos(angle), std::sin(angle)};
+    mesh.positions()[mesh.vertex_of_user(UserVertex(i))] = {std::cos(angle), std::sin(angle)};
   }
   const auto defect = defect_of(mesh);
   EXPECT_EQ(defect.kind, DefectKind::HullMoved);
@@ -94,7 +94,7 @@ TEST(Validate, SeesAHullThatGoesAroundTwice) {
 
 TEST(Validate, SeesSidesThatDoNotBelongTogether) {
   Mesh mesh = build_mesh(four_triangles());
-  auto patch = flip_of(mesh, side_between(mesh, 4, 0));
+  auto patch = flip_of(mesh, side_between(mesh, UserVertex(4), UserVertex(0)));
   std::swap(patch.across[0], patch.across[1]);
   mesh.splice(patch);
   EXPECT_EQ(defect_of(mesh).kind, DefectKind::Connectivity);
@@ -105,7 +105,7 @@ TEST(Validate, MissesAConstrainedEdge) {
   auto data = four_triangles();
   data.markers = {{"wire", {{0, 4}}}};
   Mesh mesh = build_mesh(data);
-  auto patch = flip_of(mesh, side_between(mesh, 4, 0));
+  auto patch = flip_of(mesh, side_between(mesh, UserVertex(4), UserVertex(0)));
   mesh.splice(patch);
   const auto defect = defect_of(mesh);
   EXPECT_EQ(defect.kind, DefectKind::MissingEdge);
@@ -117,9 +117,9 @@ TEST(Validate, SeesAConstraintInAnothersPlace) {
   auto data = four_triangles();
   data.markers = {{"wire", {{0, 4}}}};
   Mesh mesh = build_mesh(data);
-  const int side = side_between(mesh, 4, 0);
+  const Side side = side_between(mesh, UserVertex(4), UserVertex(0));
   auto patch = flip_of(mesh, side);
-  patch.lines.push_back({Mesh::side(0, 2), mesh.constraint_of(side)});
+  patch.lines.push_back({Mesh::side(Face(0), 2), mesh.constraint_of(side)});
   mesh.splice(patch);
   EXPECT_EQ(defect_of(mesh).kind, DefectKind::MissingEdge);
   EXPECT_THAT(defect_of(mesh).message(), HasSubstr("its place is taken"));
@@ -128,7 +128,7 @@ TEST(Validate, SeesAConstraintInAnothersPlace) {
 TEST(Validate, SeesLabelsThatMeetOrChange) {
   Random random(3);
   Mesh mesh = build_mesh(random_grid(4, 4, random));
-  int face = 0;
+  Face face{0};
   while (!can_flip(mesh, Mesh::side(face, 0))) ++face;
   auto patch = flip_of(mesh, Mesh::side(face, 0));
   patch.labels[0] = 5;
@@ -140,7 +140,7 @@ TEST(Validate, SeesLabelsThatMeetOrChange) {
   single.points = {{0, 0}, {1, 0}, {0, 1}};
   single.triangles = {{0, 1, 2}};
   Mesh relabelled = build_mesh(single);
-  FaceState same = relabelled.save(0);
+  FaceState same = relabelled.save(Face(0));
   same.label = 5;
   relabelled.restore({&same, 1});
   EXPECT_EQ(defect_of(relabelled).kind, DefectKind::MissingEdge);
@@ -157,7 +157,7 @@ TEST(Validate, TrustsThinHugeAndTinyMeshes) {
       for (auto& p : turned.points)
         p = scale * Point(0.8 * p.x - 0.6 * thickness * p.y, 0.6 * p.x + 0.8 * thickness * p.y);
       Mesh mesh = build_mesh(data);
-      for (int user = 0; user < data.n_vertices(); ++user)
+      for (const UserVertex user : Numbers<UserVertex>(data.n_vertices()))
         mesh.positions()[mesh.vertex_of_user(user)] = turned.points[user];
       const auto defect = validate(mesh);
       EXPECT_FALSE(defect && defect->kind == DefectKind::Coverage) << defect->message();

@@ -86,7 +86,7 @@ void expect_delaunay(const MeshData& mesh) {
     if (other == all.end()) continue;
     EXPECT_NE(
         in_circle(mesh.points[side[0]], mesh.points[side[1]], mesh.points[apex], mesh.points[other->second]),
-        Side::Inside);
+        InCircle::Inside);
   }
 }
 

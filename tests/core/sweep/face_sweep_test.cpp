@@ -111,7 +111,7 @@ TEST(FaceSweep, SeesTheSmallestAngleOfUprightFaces) {
 // Of the domain: brute force.
 Minima minima_of(const Mesh& mesh) {
   Minima minima;
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     if (mesh.is_padding(f)) continue;
     minima.twice_area = std::min(minima.twice_area, twice_area(mesh.corners(f)));
     minima.tangent = std::min(minima.tangent, tangent_of_smallest_angle(mesh.corners(f)));
@@ -152,10 +152,10 @@ TEST(FaceMinima, FollowFacesThatAreOutdated) {
   minima.reset(mesh.n_faces());
   minima.update(mesh);
   for (int round = 0; round < 200; ++round) {
-    const int vertex = random.below(mesh.n_vertices());
+    const Vertex vertex(random.below(mesh.n_vertices()));
     mesh.positions()[vertex] += Point(random.between(-0.9, 0.9), random.between(-0.9, 0.9));
-    std::vector<int> around;
-    for (int f = 0; f < mesh.n_faces(); ++f)
+    std::vector<Face> around;
+    for (const Face f : mesh.faces())
       if (std::ranges::count(mesh.triangles()[f], vertex) > 0) around.push_back(f);
     minima.outdate(around);
     expect_equal(minima.update(mesh), minima_of(mesh));

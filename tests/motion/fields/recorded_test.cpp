@@ -10,6 +10,7 @@
 
 #include "kinemesh/motion.h"
 #include "kinemesh/vtu.h"
+#include "motion/restriction.h"
 #include "tests/motion/grid.h"
 
 namespace kinemesh {
@@ -185,11 +186,9 @@ TEST_F(RecordedPositionsTest, MoveTheVerticesThatAMotionNames) {
   const auto x0 = mesh.positions();
   std::vector<Point> x1(x0.begin(), x0.end());
   recorded_motion(mesh, series({0.0, 0.5, 2.5})).advance(x0, 0.0, 0.5, 0, x1);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    EXPECT_EQ(x1[v], mesh.user_vertex(v) == none ? x0[v] : 2.0 * x0[v]);
+  for (const Vertex v : mesh.vertices()) EXPECT_EQ(x1[v], mesh.user_vertex(v) == none ? x0[v] : 2.0 * x0[v]);
   recorded_motion(mesh, series({0.0, 0.5, 2.5}), "disc:[1,1,0.1]").advance(x0, 0.0, 0.5, 0, x1);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    EXPECT_EQ(x1[v], x0[v] == Point(1.0, 1.0) ? Point(2.0, 2.0) : x0[v]);
+  for (const Vertex v : mesh.vertices()) EXPECT_EQ(x1[v], x0[v] == Point(1.0, 1.0) ? Point(2.0, 2.0) : x0[v]);
 }
 
 TEST_F(RecordedPositionsTest, NameWhatDoesNotFitARun) {
@@ -213,7 +212,7 @@ TEST_F(RecordedPositionsTest, AreBlamedForAStepOutsideTheRecord) {
   std::vector<Point> x1(x0.begin(), x0.end());
   const Motion motion = recorded_motion(mesh, series({0.0, 0.5}));
   motion.advance(x0, 0.4, 0.2, 0, x1);
-  const int v = mesh.vertex_of_user(8);
+  const Vertex v = mesh.vertex_of_user(UserVertex(8));
   EXPECT_TRUE(std::isnan(x1[v].x));
   EXPECT_EQ(motion.describe_non_finite(v, x0, {0.4, 0.6, 0.2, 0}),
             "field \"recorded\" gives (nan, nan) at (1, 1), time 0.4");

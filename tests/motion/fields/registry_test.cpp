@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "motion/fields/rigid.h"
 
@@ -44,22 +46,51 @@ ParameterValue sample(const ParameterInfo& parameter) {
   }
 }
 
+// With what it requires; nothing for a field that wants a file, which has tests of its own.
+std::optional<AnyField> made(const FieldInfo& info) {
+  FieldParameters required;
+  for (const auto& parameter : info.parameters) {
+    if (parameter.kind == ParameterKind::File) return std::nullopt;
+    if (!parameter.otherwise) required.emplace(parameter.name, sample(parameter));
+  }
+  return make_field(info.name, required);
+}
+
 TEST(Registry, MakesEveryFieldUnderItsName) {
   std::vector<std::string> names;
   for (const auto& info : fields()) {
     names.push_back(info.name);
     EXPECT_FALSE(info.description.empty());
-    const auto is_file = [](const ParameterInfo& p) { return p.kind == ParameterKind::File; };
-    if (std::any_of(info.parameters.begin(), info.parameters.end(), is_file)) continue;  // own tests
-    FieldParameters required;
-    for (const auto& parameter : info.parameters)
-      if (!parameter.otherwise) required.emplace(parameter.name, sample(parameter));
-    EXPECT_EQ(name_of(make_field(info.name, required)), info.name);
+    if (const auto field = made(info)) {
+      EXPECT_EQ(name_of(*field), info.name);
+    }
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"rotation", "pitch", "plunge", "translate", "shear", "swirl",
                                             "taylor-green", "gresho", "twist", "rotor", "jitter", "brownian",
                                             "expression", "displacement", "zalesak", "grid", "plugin",
                                             "vortices", "recorded"}));
+}
+
+TEST(Fields, AnswerForManyPointsAsForOne) {
+  const std::vector<Point> x{{0.1, 0.2}, {0.7, 0.9}, {-2.0, 3.0}, {0.5, 0.5}, {0.0, 0.0}};
+  const std::vector<std::uint64_t> vertices{0, 7, 12, 1000000, 3};
+  int seen = 0;
+  for (const auto& info : fields()) {
+    const auto field = made(info);
+    if (!field) continue;
+    std::vector<Point> many(x.size()), one;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (const auto* v = std::get_if<0>(&*field)) one.push_back((*v)->velocity(x[i], 0.3));
+      if (const auto* d = std::get_if<1>(&*field)) one.push_back((*d)->displacement(x[i], 0.3));
+      if (const auto* n = std::get_if<2>(&*field)) one.push_back((*n)->kick(vertices[i], 4, 0.1, 0.2));
+    }
+    if (const auto* v = std::get_if<0>(&*field)) (*v)->velocities(x, 0.3, many);
+    if (const auto* d = std::get_if<1>(&*field)) (*d)->displacements(x, 0.3, many);
+    if (const auto* n = std::get_if<2>(&*field)) (*n)->kicks(vertices, 4, 0.1, 0.2, many);
+    EXPECT_EQ(std::memcmp(many.data(), one.data(), many.size() * sizeof(Point)), 0) << info.name;
+    ++seen;
+  }
+  EXPECT_GT(seen, 12);
 }
 
 TEST(Registry, HandsParametersOver) {

@@ -40,7 +40,7 @@ double density(Follow follow, const Point& g, int c, const Point& h, int d) {
 Matrix assemble(const Mesh& mesh, const std::vector<Point>& positions, const InteriorOptions& options) {
   const int n = 2 * mesh.n_vertices();
   Matrix matrix(n, std::vector<double>(n, 0.0));
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     if (mesh.is_padding(f)) continue;
     const auto& t = mesh.triangles()[f];
     const std::array<Point, 3> x{positions[t[0]], positions[t[1]], positions[t[2]]};
@@ -59,17 +59,17 @@ Matrix assemble(const Mesh& mesh, const std::vector<Point>& positions, const Int
 }
 
 // Vertices whose increments are unknown: in a part with something that pulls.
-std::set<int> unknowns(const Mesh& mesh, std::span<const Role> roles, std::span<const Point> increments) {
-  std::set<int> found;
+std::set<Vertex> unknowns(const Mesh& mesh, std::span<const Role> roles, std::span<const Point> increments) {
+  std::set<Vertex> found;
   for (std::size_t before = 1; before != found.size();) {
     before = found.size();
-    for (int f = 0; f < mesh.n_faces(); ++f) {
+    for (const Face f : mesh.faces()) {
       if (mesh.is_padding(f)) continue;
       const auto& t = mesh.triangles()[f];
-      const bool pulled = std::any_of(t.begin(), t.end(), [&](int v) {
+      const bool pulled = std::any_of(t.begin(), t.end(), [&](Vertex v) {
         return found.count(v) > 0 || (roles[v] == Role::Known && increments[v] != Point(0.0, 0.0));
       });
-      for (const int v : t)
+      for (const Vertex v : t)
         if (pulled && roles[v] != Role::Known) found.insert(v);
     }
     if (found.empty()) break;
@@ -79,13 +79,13 @@ std::set<int> unknowns(const Mesh& mesh, std::span<const Role> roles, std::span<
 
 // A coordinate along which an unknown vertex moves.
 struct Freedom {
-  int vertex;
+  Vertex vertex;
   Point along;
 };
 
-std::vector<Freedom> freedoms(const std::set<int>& vertices, const InteriorProblem& problem) {
+std::vector<Freedom> freedoms(const std::set<Vertex>& vertices, const InteriorProblem& problem) {
   std::vector<Freedom> all;
-  for (const int v : vertices) {
+  for (const Vertex v : vertices) {
     if (problem.roles[v] == Role::Slide) {
       all.push_back({v, problem.tangents.at(v)});
     } else {
@@ -136,7 +136,7 @@ void solve_on(const Mesh& mesh, const std::vector<Point>& positions, const Inter
     for (std::size_t j = 0; j < unknown.size(); ++j)
       a[i][j] = unknown[j].along.x * entry(unknown[i], 2 * unknown[j].vertex) +
                 unknown[j].along.y * entry(unknown[i], 2 * unknown[j].vertex + 1);
-    for (int v = 0; v < mesh.n_vertices(); ++v)
+    for (const Vertex v : mesh.vertices())
       b[i] -= solution.increments[v].x * entry(unknown[i], 2 * v) +
               solution.increments[v].y * entry(unknown[i], 2 * v + 1);
   }

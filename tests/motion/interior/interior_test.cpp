@@ -40,14 +40,14 @@ struct Case {
         increments(mesh.n_vertices(), Point(0.0, 0.0)) {}
 
   InteriorProblem problem() const { return {roles, tangents, others}; }
-  void fix(int v, const Point& increment) {
+  void fix(Vertex v, const Point& increment) {
     roles[v] = Role::Known;
     increments[v] = increment;
   }
 };
 
-std::vector<int> border(const Mesh& mesh) {
-  std::vector<int> vertices;
+std::vector<Vertex> border(const Mesh& mesh) {
+  std::vector<Vertex> vertices;
   for (const auto& constraint : mesh.constraints())
     if (constraint.is_border()) vertices.insert(vertices.end(), {constraint.from, constraint.to});
   return vertices;
@@ -55,7 +55,7 @@ std::vector<int> border(const Mesh& mesh) {
 
 Case with_border(const MeshData& data, const Map& increment) {
   Case c(data);
-  for (const int v : border(c.mesh)) c.fix(v, increment(c.mesh.position(v)));
+  for (const Vertex v : border(c.mesh)) c.fix(v, increment(c.mesh.position(v)));
   return c;
 }
 
@@ -81,7 +81,7 @@ double largest_difference(std::span<const Point> a, std::span<const Point> b) {
 
 double largest_error(const Case& c, std::span<const Point> increments, const Map& exact) {
   double error = 0.0;
-  for (int v = 0; v < c.mesh.n_vertices(); ++v)
+  for (const Vertex v : c.mesh.vertices())
     if (c.mesh.user_vertex(v) != none && !c.mesh.is_isolated(v))
       error = std::max(error, glm::distance(increments[v], exact(c.mesh.position(v))));
   return error;
@@ -125,7 +125,7 @@ class RandomCase {
     Case c(mesh(), {.frame = number(2) * 0.2});
     const int known = 1 + number(9), sliding = 1 + number(9);
     const bool some_rest = number(3) == 0;
-    for (const int v : border(c.mesh)) {
+    for (const Vertex v : border(c.mesh)) {
       if (number(known) != 0)
         c.fix(v, some_rest && number(2) == 0 ? Point(0.0, 0.0) : 0.02 * Point(real(), real()));
       else if (number(sliding) == 0 && c.roles[v] == Role::Free)
@@ -133,7 +133,7 @@ class RandomCase {
     }
     if (number(2) == 0) c.others.resize(c.mesh.n_vertices());
     for (auto& other : c.others) other = 0.01 * Point(real(), real());
-    for (int v = 0; v < c.mesh.n_vertices(); ++v)
+    for (const Vertex v : c.mesh.vertices())
       if (c.roles[v] != Role::Known && number(2) == 0) c.increments[v] = 0.05 * Point(real(), real());
     return c;
   }
@@ -148,7 +148,7 @@ class RandomCase {
  private:
   int number(int below) { return static_cast<int>(random_() % static_cast<unsigned>(below)); }
   double real() { return std::uniform_real_distribution<double>(-1.0, 1.0)(random_); }
-  void slide(Case& c, int v) {
+  void slide(Case& c, Vertex v) {
     const double angle = 4.0 * real();
     c.roles[v] = Role::Slide;
     c.tangents[v] = Point(std::cos(angle), std::sin(angle));
@@ -166,7 +166,7 @@ TEST(Interior, AgreesWithElimination) {
       const InteriorOptions options = random.options(follow);
       const DenseSolution exact = solve_densely(c.mesh, options, c.problem(), c.increments);
       const auto increments = solved(c, options);
-      for (int v = 0; v < c.mesh.n_vertices(); ++v) {
+      for (const Vertex v : c.mesh.vertices()) {
         if (c.roles[v] == Role::Known) {
           EXPECT_EQ(increments[v], c.increments[v]);
         } else if (exact.increments[v] == Point(0.0, 0.0) && exact.is_unique) {
@@ -273,7 +273,7 @@ TEST(Interior, ElasticFollowsInfinitesimalRotations) {
 TEST(Interior, StaysWhereNothingMoves) {
   for (const Follow follow : {Follow::None, Follow::Harmonic, Follow::Elastic}) {
     Case c = with_border(make_annulus(500), [](const Point&) { return Point(0.0, 0.0); });
-    for (int v = 0; v < c.mesh.n_vertices(); ++v)
+    for (const Vertex v : c.mesh.vertices())
       if (c.roles[v] == Role::Free) c.increments[v] = {0.1, 0.2};
     const std::vector<Point> zero(c.mesh.n_vertices(), Point(0.0, 0.0));
     EXPECT_TRUE(same_bits(solved(c, {.follow = follow}), zero));
@@ -292,15 +292,15 @@ TEST(Interior, PartsThatNothingPullsStay) {
   for (const Role role : {Role::Known, Role::Slide, Role::Free})
     for (const Follow follow : follows) {
       Case c(data);
-      for (const int v : border(c.mesh)) {
+      for (const Vertex v : border(c.mesh)) {
         c.roles[v] = c.mesh.position(v).x < 1.5 ? Role::Known : role;
         if (c.mesh.position(v).x < 1.5) c.increments[v] = Point(0.01, 0.02);
         if (role == Role::Slide) c.tangents[v] = Point(1.0, 0.0);
       }
-      for (int v = 0; v < c.mesh.n_vertices(); ++v)
+      for (const Vertex v : c.mesh.vertices())
         if (c.roles[v] != Role::Known) c.increments[v] = {0.1, 0.2};
       const auto increments = solved(c, {.follow = follow});
-      for (int v = 0; v < c.mesh.n_vertices(); ++v)
+      for (const Vertex v : c.mesh.vertices())
         EXPECT_EQ(increments[v] != Point(0.0, 0.0), c.mesh.position(v).x < 1.5);
     }
 }
@@ -308,7 +308,7 @@ TEST(Interior, PartsThatNothingPullsStay) {
 TEST(Interior, SlidesAlongTangentsOnly) {
   Case c = with_border(make_square(800), [](const Point& p) { return Point(0.1 * p.x, 0.0); });
   const double tilt = 0.7;
-  for (const int v : border(c.mesh)) {
+  for (const Vertex v : border(c.mesh)) {
     const Point p = c.mesh.position(v);
     if (p.x <= 0.0 || p.x >= 1.0) continue;
     c.roles[v] = Role::Slide;
@@ -368,7 +368,7 @@ TEST(Interior, DoesNotDependOnUnitsOrPlace) {
 TEST(Interior, IsTheSameForAnyNumberOfThreads) {
   for (const Follow follow : follows) {
     Case c = turning(make_annulus(20'000));
-    for (const int v : border(c.mesh))
+    for (const Vertex v : border(c.mesh))
       if (glm::length(c.mesh.position(v)) > 0.75 && c.mesh.position(v).x > 0.0) {
         c.roles[v] = Role::Slide;
         c.tangents[v] = glm::normalize(Point(-c.mesh.position(v).y, c.mesh.position(v).x));
@@ -399,7 +399,7 @@ TEST(Interior, GoesFasterFromANearStart) {
     auto cold = c.increments;
     const auto from_zero = interior.solve(c.mesh, c.problem(), cold);
     auto warm = cold;
-    for (int v = 0; v < c.mesh.n_vertices(); ++v)
+    for (const Vertex v : c.mesh.vertices())
       warm[v] = c.roles[v] == Role::Known ? c.increments[v] : 1.02 * cold[v];
     const auto from_near = interior.solve(c.mesh, c.problem(), warm);
     EXPECT_LT(from_near.iterations, 0.85 * from_zero.iterations);
@@ -420,7 +420,7 @@ TEST(Interior, TellsThatItHasNotConverged) {
     EXPECT_FALSE(solution.converged);
     EXPECT_EQ(solution.iterations, 1);
     EXPECT_GT(solution.residual, 1e-5);
-    for (int v = 0; v < c.mesh.n_vertices(); ++v)
+    for (const Vertex v : c.mesh.vertices())
       EXPECT_TRUE(c.roles[v] != Role::Known || increments[v] == c.increments[v]);
   }
 }
@@ -431,7 +431,7 @@ TEST(Interior, BearsFlatAndInvertedFacesHalfway) {
     Case c = with_border(grid(12), [](const Point& p) { return 0.01 * Point(p.y, 1.0); });
     c.others.assign(c.mesh.n_vertices(), Point(0.0, 0.0));
     const auto send = [&](int i, int j, const Point& target) {
-      const int v = grid_vertex(c.mesh, 12, i, j);
+      const Vertex v = grid_vertex(c.mesh, 12, i, j);
       c.others[v] = 2.0 * (target - c.mesh.position(v));
     };
     const auto place = [&](int i, int j) { return c.mesh.position(grid_vertex(c.mesh, 12, i, j)); };
@@ -452,7 +452,7 @@ TEST(Interior, BearsFacesWithoutExtent) {
     const auto way = solved(c, {.follow = follow, .tolerance = 1e-13});
     for (int i = 4; i <= 8; ++i)
       for (int j = 4; j <= 8; ++j) {  // all to one point, but for rounding of the increments
-        const int v = grid_vertex(c.mesh, 12, i, j);
+        const Vertex v = grid_vertex(c.mesh, 12, i, j);
         c.others[v] = 2.0 * (middle - c.mesh.position(v)) - way[v];
       }
     EXPECT_LE(largest(solved(c, {.follow = follow})), 0.02);

@@ -18,14 +18,14 @@ Mesh jittered(int vertices, double way, unsigned seed) {
   Mesh mesh = build_mesh(make_square(vertices));
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> kick(-way, way);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (const Vertex v : mesh.vertices())
     if (!mesh.is_constrained(v)) mesh.positions()[v] += Point(kick(random), kick(random));
   return mesh;
 }
 
-std::vector<int> region_of(const Mesh& mesh, int user_seed) {
-  for (int face = 0; face < mesh.n_faces(); ++face) {
-    if (mesh.user_face(face) != user_seed) continue;
+std::vector<Face> region_of(const Mesh& mesh, UserFace seed) {
+  for (const Face face : mesh.faces()) {
+    if (mesh.user_face(face) != seed) continue;
     LocalExploration exploration(mesh);
     EXPECT_TRUE(exploration.run(face));
     return exploration.faces();
@@ -33,27 +33,27 @@ std::vector<int> region_of(const Mesh& mesh, int user_seed) {
   return {};
 }
 
-bool is_upright(const Mesh& mesh, int face) {
+bool is_upright(const Mesh& mesh, Face face) {
   const auto [a, b, c] = mesh.corners(face);
   return orientation(a, b, c) == Orientation::CounterClockwise;
 }
 
-int crossings_of(const Mesh& mesh, const std::vector<int>& faces) {
-  std::set<int> edges;
-  for (const int face : faces)
-    for (const int side : mesh.sides(face))
+int crossings_of(const Mesh& mesh, const std::vector<Face>& faces) {
+  std::set<Side> edges;
+  for (const Face face : faces)
+    for (const Side side : mesh.sides(face))
       if (is_upright(mesh, face)) edges.insert(mesh.lower(side));
-  const auto end = [&](int edge, int which) {
+  const auto end = [&](Side edge, int which) {
     return mesh.position(which == 0 ? mesh.from(edge) : mesh.to(edge));
   };
   int count = 0;
-  for (const int e : edges)
-    for (const int g : edges) count += e < g && segments_cross(end(e, 0), end(e, 1), end(g, 0), end(g, 1));
+  for (const Side e : edges)
+    for (const Side g : edges) count += e < g && segments_cross(end(e, 0), end(e, 1), end(g, 0), end(g, 1));
   return count;
 }
 
 // At random points; never more than there is.
-int depth_seen(const Mesh& mesh, const std::vector<int>& faces, int n_points, std::mt19937_64& random) {
+int depth_seen(const Mesh& mesh, const std::vector<Face>& faces, int n_points, std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   int deepest = 0;
   for (int i = 0; i < n_points; ++i) {
@@ -62,7 +62,7 @@ int depth_seen(const Mesh& mesh, const std::vector<int>& faces, int n_points, st
     if (s + t > 1.0) s = 1.0 - s, t = 1.0 - t;
     const Point p = a + s * (b - a) + t * (c - a);
     int depth = 0;
-    for (const int face : faces) depth += strictly_inside(p, mesh.corners(face));
+    for (const Face face : faces) depth += strictly_inside(p, mesh.corners(face));
     deepest = std::max(deepest, depth);
   }
   return deepest;
@@ -77,7 +77,7 @@ TEST(BenchBound, CountsAsBruteForceDoes) {
       const auto faces = region_of(mesh, sample.seed);
       ASSERT_EQ(sample.faces(), static_cast<int>(faces.size()));
       EXPECT_EQ(sample.upright,
-                std::count_if(faces.begin(), faces.end(), [&](int f) { return is_upright(mesh, f); }));
+                std::count_if(faces.begin(), faces.end(), [&](Face f) { return is_upright(mesh, f); }));
       EXPECT_EQ(sample.crossings, crossings_of(mesh, faces));
       const int seen = depth_seen(mesh, faces, 4000, random);
       EXPECT_GE(sample.depth, seen);

@@ -140,7 +140,10 @@ TEST(RegionShare, RefusesAStepAndLeavesNoTrace) {
         ASSERT_EQ(outcome.record.accepted, static_cast<bool>(outcome));
         steps += outcome.record.accepted;
         (outcome ? accepted : refused) += 1;
+        ASSERT_EQ(outcome.reason(), outcome ? Refusal::None : Refusal::RegionsTooLarge);
+        ASSERT_EQ(outcome.message().empty(), static_cast<bool>(outcome));
         if (outcome) continue;
+        ASSERT_THAT(outcome.message(), testing::HasSubstr("of all faces, at most 0.2 expected"));
         ASSERT_EQ(outcome.too_large->share, share);
         ASSERT_EQ(test::snapshot(stepper.mesh()), before) << test::name_of(options);
         ASSERT_EQ(stepper.time(), time);

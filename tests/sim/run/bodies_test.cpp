@@ -10,9 +10,10 @@
 #include "kinemesh/compare.h"
 #include "kinemesh/mesh_io.h"
 #include "kinemesh/run.h"
+#include "kinemesh/setup.h"
 #include "kinemesh/validate.h"
+#include "motion/border.h"
 #include "sim/run/failed_step.h"
-#include "sim/scenario/setup.h"
 #include "tests/sim/helpers.h"
 
 namespace kinemesh {
@@ -317,7 +318,7 @@ Tank tank_after_its_run(bool wall_is_held) {
     expect_on_line_in_order(made.motion.freedom().lines().front(), stepper.mesh());
   }
   EXPECT_FALSE(validate(stepper.mesh()));
-  for (const int v : made.motion.freedom().lines().front().vertices())
+  for (const Vertex v : made.motion.freedom().lines().front().vertices())
     result.wall.push_back(stepper.mesh().position(v));
   return result;
 }
@@ -357,7 +358,6 @@ TEST_F(BodyRuns, StepsKeptInAFileAreRepeatedWithTheirQuality) {
       const double end = scenario.time.time_after(n);
       FailedStep kept = failed_step(stepper, made.motion, end);
       kept.options = options;
-      kept.origin = origin_of(made.mesh);
       const std::string file = format_failed_step(kept);
       EXPECT_EQ(format_failed_step(parse_failed_step(file)), file);
       const StepOutcome again = replay(parse_failed_step(file)), once = stepper.step_to(made.motion, end);
@@ -416,14 +416,14 @@ TEST_F(BodyRuns, AVertexThatHasCrossedABorderSaysWhich) {
 TEST(StepBorder, MovesTheBorderAndTheInteriorFollows) {
   Stepper stepper(build_mesh(test::grid_with_hole(8, 3, 5), {.frame = 0.25, .fixed = {}}),
                   {.quality = "angles"});
-  std::vector<int> hole;
+  std::vector<UserVertex> hole;
   const MeshData data = stepper.mesh().domain();
   for (const Marker& marker : data.markers)
     if (marker.name == "hole")
-      for (const Edge& edge : marker.edges) hole.push_back(edge[0]);
+      for (const Edge& edge : marker.edges) hole.push_back(UserVertex(edge[0]));
   for (int n = 1; n <= 10; ++n) {
     std::vector<Point> places;
-    for (const int v : hole) places.push_back(data.points[v] + Point(0.02 * n, 0.0));
+    for (const UserVertex v : hole) places.push_back(data.points[v] + Point(0.02 * n, 0.0));
     const auto outcome = stepper.step_border(hole, places, 0.1);
     ASSERT_TRUE(outcome) << outcome.defect->message();
     const auto now = stepper.mesh().user_positions();
@@ -432,7 +432,7 @@ TEST(StepBorder, MovesTheBorderAndTheInteriorFollows) {
     EXPECT_FALSE(validate(stepper.mesh()));
   }
   EXPECT_GT(stepper.mesh().user_positions()[2 * 9 + 2].x, data.points[2 * 9 + 2].x);
-  const std::vector<int> twice{hole[0], hole[0]};
+  const std::vector<UserVertex> twice{hole[0], hole[0]};
   EXPECT_THROW((void)stepper.step_border(twice, std::vector<Point>(2), 0.1), InputError);
   EXPECT_THROW((void)stepper.step_border(hole, std::vector<Point>(2), 0.1), InputError);
 }
@@ -441,7 +441,7 @@ TEST(StepBorder, MovesTheBorderAndTheInteriorFollows) {
 TEST(StepBorder, QualityLeavesNamedVerticesOfTheInteriorAlone) {
   for (const char* quality : {"angles", "smooth"}) {
     Stepper stepper(build_mesh(test::grid(8), {.frame = 0.25, .fixed = {}}), {.quality = quality});
-    const std::vector<int> named{40, 41};
+    const std::vector<UserVertex> named{UserVertex(40), UserVertex(41)};
     const std::vector<Point> places{stepper.mesh().user_positions()[40] + Point(0.055, 0.0),
                                     stepper.mesh().user_positions()[41] - Point(0.055, 0.0)};
     const auto outcome = stepper.step_border(named, places, 0.1);

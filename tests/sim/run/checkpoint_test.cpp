@@ -3,15 +3,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <functional>
 #include <limits>
 
 #include "core/io/atomic_file.h"
 #include "kinemesh/registry.h"
-#include "sim/run/binary.h"
+#include "tests/core/mesh/disordered.h"
 #include "tests/sim/helpers.h"
+#include "tests/sim/run/section_file.h"
 
 namespace kinemesh {
 namespace {
@@ -36,8 +36,9 @@ Motion shaking(const Mesh& mesh) {
 Checkpoint checkpoint_of(const Mesh& initial, const Stepper& stepper) {
   Checkpoint checkpoint;
   checkpoint.scenario = "a = 1\nb = 2\n";
-  checkpoint.origin = origin_of(initial);
-  checkpoint.mesh = state_of(stepper.mesh());
+  checkpoint.base = base_of(initial);
+  checkpoint.initial = state_of(initial, checkpoint.base.order);
+  checkpoint.mesh = state_of(stepper.mesh(), checkpoint.base.order);
   checkpoint.time = stepper.time();
   checkpoint.step = stepper.steps_done();
   checkpoint.adaptive = {.position = 0.75, .length = 0.25, .in_a_row = 3, .rejected = 1LL << 35};
@@ -52,9 +53,13 @@ Checkpoint checkpoint_of(const Mesh& initial, const Stepper& stepper) {
   return checkpoint;
 }
 
-Checkpoint small_checkpoint() {
-  const Mesh initial = build_mesh(test::grid(2), {.frame = 0.25, .fixed = {}});
+Checkpoint grid_checkpoint(int n) {
+  const Mesh initial = build_mesh(test::grid(n), {.frame = 0.25, .fixed = {}});
   return checkpoint_of(initial, Stepper(initial));
+}
+
+Checkpoint small_checkpoint() {
+  return grid_checkpoint(2);
 }
 
 std::string error_of(const std::string& content) {
@@ -78,15 +83,12 @@ TEST_P(EachStrategyAndQuality, MeshesComeBackAndGoOnBitForBit) {
   ASSERT_NE(snapshot(stepper.mesh()), snapshot(initial));
 
   const auto checkpoint = parse_checkpoint(format_checkpoint(checkpoint_of(initial, stepper)));
-  Mesh mesh = rebuild(checkpoint.origin);
-  ASSERT_EQ(snapshot(mesh), snapshot(initial));
-  EXPECT_EQ(mesh.domain().label_names, initial.domain().label_names);
-  EXPECT_TRUE(mesh.is_fixed(mesh.vertex_of_user(20)));
-  restore(mesh, checkpoint.mesh);
+  const Mesh start = restore(checkpoint.base, checkpoint.initial);
+  ASSERT_EQ(snapshot(start), snapshot(initial));
+  Mesh mesh = restore(checkpoint.base, checkpoint.mesh);
   ASSERT_EQ(snapshot(mesh), snapshot(stepper.mesh()));
-  EXPECT_EQ(mesh.n_user_faces(), stepper.mesh().n_user_faces());
 
-  const Motion again = shaking(rebuild(checkpoint.origin));
+  const Motion again = shaking(start);
   Stepper resumed(std::move(mesh), options, checkpoint.time, checkpoint.step);
   for (int n = 0; n < 5; ++n) {
     ASSERT_TRUE(stepper.step(motion, 0.1));
@@ -123,23 +125,46 @@ TEST(Checkpoint, KeepsEverythingElse) {
   EXPECT_EQ(checkpoint.logs.regions, 12u);
 }
 
-TEST(Checkpoint, LayoutIsTheDocumentedOne) {
-  binary::Writer writer;
-  writer(std::string("ab"), 258, 1.0, std::vector<Edge>{{1, -1}}, true);
-  const std::string payload(
-      "\x02\0\0\0\0\0\0\0ab"
-      "\x02\x01\0\0"
-      "\0\0\0\0\0\0\xf0\x3f"
-      "\x01\0\0\0\0\0\0\0\x01\0\0\0\xff\xff\xff\xff\x01",
-      39);
-  EXPECT_EQ(writer.bytes(), payload);
-  const binary::Kind kind{"KMEXAMPL", 3, "example"};
-  const std::string file = binary::seal(kind, payload);
-  EXPECT_EQ(file.substr(0, 20), "KMEXAMPL" + std::string("\x03\0\0\0\x27\0\0\0\0\0\0\0", 12));
-  EXPECT_EQ(file.substr(20, 39), payload);
-  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(file.data()), 59);
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(static_cast<unsigned char>(file[59 + i]), sum >> 8 * i & 0xff);
-  EXPECT_EQ(binary::unseal(kind, file), payload);
+// Series and increments by face and vertex, which the file has in the user's order.
+TEST(Checkpoint, BringsBackTheMeshsOrder) {
+  Checkpoint checkpoint = small_checkpoint();
+  for (std::size_t f = 0; f < checkpoint.series.region.size(); ++f) {
+    checkpoint.series.region[f] = static_cast<int>(f);
+    checkpoint.series.replaced[f] = f % 3 == 0;
+  }
+  for (std::size_t v = 0; v < checkpoint.mesh.positions.size(); ++v)
+    checkpoint.following.increments.push_back({1.0 * static_cast<double>(v), 0.5});
+  const Checkpoint back = parse_checkpoint(format_checkpoint(checkpoint));
+  EXPECT_EQ(back.series.region, checkpoint.series.region);
+  EXPECT_EQ(back.series.replaced, checkpoint.series.replaced);
+  EXPECT_EQ(back.following.increments, checkpoint.following.increments);
+}
+
+// The same mesh, stored in another order, and what goes with it: one section tells.
+TEST(Checkpoint, OneSectionDependsOnTheMeshsOrder) {
+  const MeshData data = test::grid(6);
+  const BuildOptions options{.frame = 0.0, .fixed = {3}};
+  const auto file_of = [](const Mesh& mesh) {
+    Checkpoint checkpoint = checkpoint_of(mesh, Stepper(mesh));
+    for (const Face f : mesh.faces()) checkpoint.series.region[f] = mesh.user_face(f) % 5;
+    for (const Vertex v : mesh.vertices()) checkpoint.following.increments.push_back(mesh.position(v));
+    return test::taken_apart(format_checkpoint(checkpoint));
+  };
+  const auto one = file_of(build_mesh(data, options)), other = file_of(test::disordered(data, options, 5));
+  ASSERT_EQ(one.sections.size(), other.sections.size());
+  for (std::size_t i = 0; i < one.sections.size(); ++i)
+    EXPECT_EQ(one.sections[i].contents == other.sections[i].contents, one.sections[i].name != "order")
+        << one.sections[i].name;
+}
+
+TEST(Checkpoint, HasTheDocumentedSections) {
+  std::vector<std::string> names;
+  for (const auto& section : test::taken_apart(format_checkpoint(small_checkpoint())).sections) {
+    names.push_back(section.name);
+    EXPECT_EQ(section.version, 1u);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"program", "scenario", "mesh", "order", "initial", "state",
+                                             "time", "interior", "totals", "series", "logs"}));
 }
 
 TEST(Checkpoint, IsRefusedWithAnyByteChanged) {
@@ -149,7 +174,8 @@ TEST(Checkpoint, IsRefusedWithAnyByteChanged) {
     for (const char flip : {'\x01', '\x80', '\xff'}) {
       std::string damaged = whole;
       damaged[i] = static_cast<char>(damaged[i] ^ flip);
-      EXPECT_THAT(error_of(damaged), HasSubstr(i < 8 ? "is no checkpoint of kinemesh" : "is damaged")) << i;
+      const char* const why = i < 8 ? "is no checkpoint of kinemesh" : i < 12 ? "has layout" : "is damaged";
+      EXPECT_THAT(error_of(damaged), HasSubstr(why)) << i;
     }
   }
 }
@@ -161,51 +187,29 @@ TEST(Checkpoint, IsRefusedWithAnyOtherLength) {
   EXPECT_THAT(error_of(whole + '\0'), HasSubstr("is damaged"));
 }
 
-// Sealed rightly, by a program of another version or with too little inside.
-TEST(Checkpoint, IsRefusedInAnotherLayout) {
-  const binary::Kind ours{"KMCHKPT\n", 5, "checkpoint"}, later{"KMCHKPT\n", 9, "checkpoint"};
-  const std::string whole = format_checkpoint(small_checkpoint());
-  const std::string payload(binary::unseal(ours, whole));
-  EXPECT_EQ(error_of(binary::seal(ours, payload)), "none");
-  EXPECT_THAT(error_of(binary::seal(later, payload)), HasSubstr("version 9 of the layout, 5 expected"));
-  EXPECT_THAT(error_of(binary::seal(ours, payload + "x")), HasSubstr("more bytes"));
-  for (size_t length = 0; length < payload.size(); length += 7)
-    EXPECT_NE(error_of(binary::seal(ours, payload.substr(0, length))), "none");
-}
-
-std::string restore_error(const MeshOrigin& origin, const MeshState& state) {
-  try {
-    Mesh mesh = rebuild(origin);
-    restore(mesh, state);
-    return "none";
-  } catch (const InputError& error) {
-    return error.what();
+// With checksums that are right, by a program of another version.
+TEST(Checkpoint, IsRefusedWithOtherSections) {
+  const auto file = test::taken_apart(format_checkpoint(small_checkpoint()));
+  EXPECT_EQ(error_of(test::joined(file)), "none");
+  for (std::size_t i = 0; i < file.sections.size(); ++i) {
+    const std::string& name = file.sections[i].name;
+    auto other = file;
+    other[name].version = 2;
+    EXPECT_EQ(error_of(test::joined(other)), "section '" + name + "' has version 2, this program reads 1");
+    other.sections.erase(other.sections.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_EQ(error_of(test::joined(other)), "has no section '" + name + "'");
+    other = file;
+    other[name].contents += 'x';
+    EXPECT_EQ(error_of(test::joined(other)), "section '" + name + "': more bytes than expected");
   }
-}
-
-TEST(Checkpoint, StatesThatFitNoMeshAreRefused) {
-  const Mesh initial = initial_mesh();
-  const MeshOrigin origin = origin_of(initial);
-  const MeshState state = state_of(initial);
-  EXPECT_EQ(restore_error(origin, state), "none");
-  auto other = origin;
-  std::swap(other.user_vertices[3], other.user_vertices[4]);
-  EXPECT_THAT(restore_error(other, state), HasSubstr("numbers the mesh in another way"));
-  auto bad = state;
-  bad.labels.pop_back();
-  EXPECT_THAT(restore_error(origin, bad), HasSubstr("another size"));
-  bad = state;
-  bad.triangles[5][1] = 1000;
-  EXPECT_THAT(restore_error(origin, bad), HasSubstr("does not have"));
-  bad = state;
-  bad.constraint_sides[2] = 1 << 20;
-  EXPECT_THAT(restore_error(origin, bad), HasSubstr("does not have"));
-  bad = state;
-  std::swap(bad.across[5], bad.across[6]);
-  EXPECT_NE(restore_error(origin, bad), "none");
-  bad = state;
-  std::swap(bad.triangles[5], bad.triangles[6]);
-  EXPECT_NE(restore_error(origin, bad), "none");
+  auto other = file;
+  other["lattice"].contents = "xyz";
+  EXPECT_EQ(error_of(test::joined(other)), "section 'lattice' is unknown to this program");
+  other = file;
+  other.layout = 5;
+  EXPECT_EQ(
+      error_of(test::joined(other)),
+      "has layout 5, this program reads 6: an older version has written it; that version can go on from it");
 }
 
 TEST(Checkpoint, TheLastTwoAreKept) {
@@ -271,8 +275,9 @@ TEST(Checkpoint, ErrorsNameTheFileAndOfferTheOneBefore) {
   folder.write("checkpoint_prev.bin", "");
   EXPECT_THAT(last_error(folder, ours),
               HasSubstr("is no checkpoint of kinemesh; no whole checkpoint_prev.bin"));
-  checkpoint.series.region.pop_back();
-  write_checkpoint(folder.path(), checkpoint);
+  auto file = test::taken_apart(format_checkpoint(checkpoint));
+  file["series"].contents = test::taken_apart(format_checkpoint(grid_checkpoint(3)))["series"].contents;
+  folder.write("checkpoint.bin", test::joined(file));
   EXPECT_THAT(last_error(folder, ours), HasSubstr("checkpoint.bin: the series of a mesh of another size"));
 }
 

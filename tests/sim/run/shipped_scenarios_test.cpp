@@ -173,7 +173,7 @@ TEST(ShippedScenarios, TheBumpTravels) {
       Point top{0.0, 0.0};
       for (const auto& marker : mesh.markers())
         for (const auto& edge : marker.edges)
-          if (const Point p = mesh.positions()[mesh.vertex_of_user(edge[0])];
+          if (const Point p = mesh.positions()[mesh.vertex_of_user(UserVertex(edge[0]))];
               marker.name == "bottom" && p.y > top.y)
             top = p;
       tops[record.step] = top;

@@ -9,8 +9,8 @@
 #include "kinemesh/build.h"
 #include "kinemesh/mesh_io.h"
 #include "kinemesh/run.h"
+#include "kinemesh/setup.h"
 #include "kinemesh/validate.h"
-#include "sim/scenario/setup.h"
 #include "tests/sim/helpers.h"
 
 namespace kinemesh {

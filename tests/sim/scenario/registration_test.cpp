@@ -22,10 +22,10 @@ class FlipsThenGlobal : public Strategy {
   static inline int n_stuck = 0;
 
   std::string_view name() const override { return "flips-then-global"; }
-  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const RepairOptions& options) override {
-    if (auto flipped = flips_->repair(mesh, options)) return flipped;
+  [[nodiscard]] RepairOutcome repair(Mesh& mesh, const Move& move) override {
+    if (auto flipped = flips_->repair(mesh, move)) return flipped;
     ++n_stuck;
-    return global_->repair(mesh, options);
+    return global_->repair(mesh, move);
   }
 
  private:
@@ -65,7 +65,7 @@ TEST(RegisteredStrategy, IsListedAndRefusedTwice) {
     register_strategy(info);
     ADD_FAILURE() << "registered twice";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "there is already a strategy named 'flips-then-global'");
+    EXPECT_STREQ(error.what(), "there is already a strategy \"flips-then-global\"");
   }
   EXPECT_EQ(strategies().size(), n);
 }

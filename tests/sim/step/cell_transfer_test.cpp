@@ -27,6 +27,11 @@ double area(const Point& a, const Point& b, const Point& c) {
   return ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
 }
 
+double area_after(const StepChanges& changes, const Triangle& t) {
+  const auto at = [&](int v) { return changes.after(UserVertex(v)); };
+  return area(at(t[0]), at(t[1]), at(t[2]));
+}
+
 double area_of(const MeshData& data, int face) {
   const auto& [a, b, c] = data.triangles[face];
   return area(data.points[a], data.points[b], data.points[c]);
@@ -95,8 +100,7 @@ TEST(CellTransfer, KeepsAConstantDensity) {
         options,
         [&](const StepChanges& changes) {
           for (int f = 0; f < data.n_faces(); ++f) {
-            const auto& [a, b, c] = data.triangles[f];
-            amounts[f] = 2.5 * area(changes.after(a), changes.after(b), changes.after(c));
+            amounts[f] = 2.5 * area_after(changes, data.triangles[f]);
             inverted += amounts[f] < 0;
           }
           remap_amounts(changes, amounts).apply(amounts);
@@ -118,10 +122,8 @@ TEST(CellTransfer, KeepsConstantAveragesAndTheSignedIntegral) {
         options,
         [&](const StepChanges& changes) {
           std::vector<double> amounts;
-          for (int f = 0; f < data.n_faces(); ++f) {
-            const auto& [a, b, c] = data.triangles[f];
-            amounts.push_back(any[f] * area(changes.after(a), changes.after(b), changes.after(c)));
-          }
+          for (int f = 0; f < data.n_faces(); ++f)
+            amounts.push_back(any[f] * area_after(changes, data.triangles[f]));
           integral = sums(data, amounts);
           const auto one = remap_averages(changes, constant), other = remap_averages(changes, any);
           one.apply(constant);
@@ -154,7 +156,7 @@ TEST(CellTransfer, CopiesValuesOfTheSameLabel) {
   }
 }
 
-Point centre(const StepChanges& changes, const Triangle& t) {
+Point centre(const StepChanges& changes, const std::array<UserVertex, 3>& t) {
   return (changes.after(t[0]) + changes.after(t[1]) + changes.after(t[2])) / 3.0;
 }
 

@@ -31,7 +31,7 @@ std::vector<Point> kicked(const Stepper& stepper, double kick, std::mt19937& ran
   const Mesh& mesh = stepper.mesh();
   std::uniform_real_distribution<double> way(-kick, kick);
   auto next = mesh.user_positions();
-  for (int u = 0; u < mesh.n_user_vertices(); ++u) {
+  for (const UserVertex u : Numbers<UserVertex>(mesh.n_user_vertices())) {
     const Point to{std::clamp(next[u].x + way(random), 0.01, 0.99),
                    std::clamp(next[u].y + way(random), 0.01, 0.99)};
     if (!mesh.is_constrained(mesh.vertex_of_user(u)) && zone(to) == zone(next[u])) next[u] = to;

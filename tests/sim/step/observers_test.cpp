@@ -18,20 +18,21 @@ namespace {
 using test::all_ways;
 using test::grid_with_hole;
 using test::kicked;
+using test::numbers_of;
 using test::snapshot;
 using test::stepper_on;
 using test::two_labels;
 
 // Directed edges of the faces without their opposites, and how often each label occurs.
 struct Outline {
-  std::map<std::pair<int, int>, int> border;
+  std::map<UserEdge, int> border;
   std::map<int, int> labels;
-  std::vector<int> vertices;
+  std::vector<UserVertex> vertices;
   bool operator==(const Outline&) const = default;
 
-  void add(const Triangle& t, int label) {
+  void add(const std::array<UserVertex, 3>& t, int label) {
     for (int k = 0; k < 3; ++k) {
-      const std::pair side(t[k], t[(k + 1) % 3]), opposite(side.second, side.first);
+      const UserEdge side{t[k], t[(k + 1) % 3]}, opposite{side[1], side[0]};
       if (const auto other = border.find(opposite); other != border.end()) {
         if (--other->second == 0) border.erase(other);
       } else {
@@ -72,7 +73,7 @@ struct Replica {
       regions.insert(regions.end(), patch.regions.begin(), patch.regions.end());
       for (const auto& change : patch.faces) apply(change);
     }
-    for (int u = 0; u < data.n_vertices(); ++u) {
+    for (const UserVertex u : Numbers<UserVertex>(data.n_vertices())) {
       EXPECT_EQ(changes.before(u), data.points[u]);
       data.points[u] = changes.after(u);
     }
@@ -81,9 +82,9 @@ struct Replica {
 
   void apply(const FaceChange& change) {
     ASSERT_LT(change.face, data.n_faces());
-    EXPECT_EQ(change.before, data.triangles[change.face]);
+    EXPECT_EQ(numbers_of(change.before), data.triangles[change.face]);
     EXPECT_EQ(change.label_before, data.labels[change.face]);
-    data.triangles[change.face] = change.after;
+    data.triangles[change.face] = numbers_of(change.after);
     data.labels[change.face] = change.label_after;
     ++rewritten;
   }
@@ -93,7 +94,7 @@ struct Replica {
     std::vector<int> expected;
     for (size_t r = 0; r < changes.repair.regions.size(); ++r) {
       const auto& region = changes.repair.regions[r];
-      if (std::any_of(region.faces.begin(), region.faces.end(), [&](int f) {
+      if (std::any_of(region.faces.begin(), region.faces.end(), [&](Face f) {
             return !changes.mesh.is_padding(f) &&
                    !std::binary_search(region.kept.begin(), region.kept.end(), f);
           }))
@@ -132,11 +133,11 @@ TEST(Observers, AreToldAllThatChangesAndNothingElseDoes) {
 
 // Vertices are where the caller wants them, or were there before the quality pass moved them.
 void expect_moves(const StepChanges& changes, const std::vector<Point>& wanted) {
-  std::map<int, Point> moved;
+  std::map<UserVertex, Point> moved;
   for (const auto& [vertex, before] : changes.moved_by_quality) moved.emplace(vertex, before);
   ASSERT_EQ(moved.size(), changes.moved_by_quality.size());
-  EXPECT_TRUE(std::ranges::is_sorted(changes.moved_by_quality, {}, &MovedVertex::vertex));
-  for (int u = 0; u < static_cast<int>(wanted.size()); ++u)
+  EXPECT_TRUE(std::ranges::is_sorted(changes.moved_by_quality, {}, &QualityMove::vertex));
+  for (const UserVertex u : Numbers<UserVertex>(static_cast<int>(wanted.size())))
     EXPECT_EQ(moved.contains(u) ? moved.at(u) : changes.after(u), wanted[u]) << u;
 }
 
@@ -257,18 +258,18 @@ TEST(Observers, HaveToBeCallable) {
 TEST(Observers, SeeFacesThatLeaveTheDomain) {
   const auto data = grid_with_hole(8, 3, 5);
   Stepper stepper = stepper_on(data, {.allow_escaped = true});
-  std::map<int, Triangle> faces;  // by number
-  for (int f = 0; f < data.n_faces(); ++f) faces[f] = data.triangles[f];
+  std::map<UserFace, Triangle> faces;
+  for (const UserFace f : Numbers<UserFace>(data.n_faces())) faces[f] = data.triangles[f];
   int changed_sides = 0;
   stepper.observe([&](const StepChanges& changes) {
     for (const auto& patch : changes.patches)
       for (const auto& change : patch.faces) {
         changed_sides += change.label_before != change.label_after;
         if (change.label_before != padding_label) {
-          EXPECT_EQ(faces.at(change.face), change.before);
+          EXPECT_EQ(faces.at(change.face), numbers_of(change.before));
         }
         faces.erase(change.face);
-        if (change.label_after != padding_label) faces[change.face] = change.after;
+        if (change.label_after != padding_label) faces[change.face] = numbers_of(change.after);
       }
   });
   auto next = data.points;

@@ -54,7 +54,7 @@ Stepper stepper_with(const StepperOptions& options) {
 std::vector<Point> shaken(const Mesh& mesh) {
   test::Random random(3);
   auto next = mesh.user_positions();
-  for (int v = 0; v < mesh.n_user_vertices(); ++v)
+  for (const UserVertex v : Numbers<UserVertex>(mesh.n_user_vertices()))
     if (!mesh.is_constrained(mesh.vertex_of_user(v)))
       next[v] += Point(random.between(-0.06, 0.06), random.between(-0.06, 0.06));
   return next;

@@ -11,13 +11,14 @@
 #include "kinemesh/measure.h"
 #include "kinemesh/registry.h"
 #include "kinemesh/run.h"
+#include "kinemesh/setup.h"
 #include "kinemesh/stepper.h"
 #include "kinemesh/validate.h"
-#include "sim/scenario/setup.h"
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/sim/helpers.h"
 #include "tests/sim/run/shipped.h"
 #include "tests/untangle/quality/delaunay.h"
+#include "untangle/quality/quality_pass.h"
 
 namespace kinemesh {
 namespace {
@@ -155,7 +156,7 @@ void run_random_scenario(std::uint64_t seed, Tally& tally) {
     tally.tangled += !outcome.record.repair.regions.empty();
     tally.flips += outcome.record.repair.quality_flips;
     for (size_t v = 0; v < before.positions.size(); ++v)
-      if (!stepper.mesh().is_constrained(static_cast<int>(v)) &&
+      if (!stepper.mesh().is_constrained(Vertex(static_cast<int>(v))) &&
           before.positions[v] == stepper.mesh().positions()[v]) {
         ++tally.partly;
         break;
@@ -254,13 +255,13 @@ TEST(DelaunaySteps, NameTheFacesTheyFlip) {
     const auto outcome = stepper.step_to(made.motion, scenario.time.time_after(n));
     ASSERT_TRUE(outcome);
     const auto flipped = stepper.flipped_faces();
-    std::set<int> touched(flipped.begin(), flipped.end());
+    std::set<Face> touched(flipped.begin(), flipped.end());
     EXPECT_EQ(touched.size(), flipped.size());
     EXPECT_LE(static_cast<int>(flipped.size()), 2 * outcome.record.repair.quality_flips);
     EXPECT_EQ(flipped.empty(), outcome.record.repair.quality_flips == 0);
     for (const auto& region : outcome.record.repair.regions)
       touched.insert(region.faces.begin(), region.faces.end());
-    for (int f = 0; f < stepper.mesh().n_faces(); ++f)
+    for (const Face f : stepper.mesh().faces())
       EXPECT_TRUE(touched.contains(f) || stepper.mesh().triangles()[f] == before[f]) << n << " " << f;
   }
 }
@@ -351,7 +352,8 @@ TEST_P(ShippedQuality, IsNeverWorseForSmoothing) {
     std::vector<Point> moved(before.positions().begin(), before.positions().end());
     made.motion.advance(before.positions(), time, end - time, static_cast<std::uint64_t>(n - 1), moved);
     std::vector<Point> next(before.n_user_vertices());
-    for (int u = 0; u < before.n_user_vertices(); ++u) next[u] = moved[before.vertex_of_user(u)];
+    for (const UserVertex u : Numbers<UserVertex>(before.n_user_vertices()))
+      next[u] = moved[before.vertex_of_user(u)];
     Stepper twin(before, options_of(scenario, "none"));
     const auto unsmoothed = twin.step(next, end - time);
     ASSERT_TRUE(unsmoothed) << at_step(unsmoothed);
@@ -359,7 +361,7 @@ TEST_P(ShippedQuality, IsNeverWorseForSmoothing) {
     EXPECT_GE(outcome.record.min_angle_deg, unsmoothed.record.min_angle_deg) << n;
     better += outcome.record.min_angle_deg > unsmoothed.record.min_angle_deg;
     expect_valid(stepper.mesh(), at_step(outcome));
-    for (int v = 0; v < before.n_vertices(); ++v)
+    for (const Vertex v : before.vertices())
       EXPECT_TRUE(stepper.mesh().position(v) == twin.mesh().position(v) ||
                   (before.user_vertex(v) != none && !before.is_constrained(v)));
   }
@@ -471,7 +473,7 @@ TEST(QualitySteps, NamesAreChecked) {
     Stepper(build_mesh(test::grid(2)), {.quality = "best"});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "no quality is named 'best'; known are: none, delaunay, smooth, angles");
+    EXPECT_STREQ(error.what(), "unknown quality \"best\", expected one of none, delaunay, smooth, angles");
   }
 }
 

@@ -148,7 +148,7 @@ TEST(Stepper, NamesPositionsThatAreNotFinite) {
     next[10].y = bad;
     const Defect defect = failed_step(stepper, next);
     EXPECT_EQ(defect.kind, DefectKind::NonFinitePosition);
-    EXPECT_EQ(defect.vertices, std::vector<int>{10});
+    EXPECT_EQ(defect.vertices, std::vector{UserVertex(10)});
     EXPECT_THAT(defect.message(), HasSubstr("time 0.5"));
   }
 }
@@ -204,7 +204,7 @@ TEST(Stepper, RefusesWhatIsNoStep) {
 class Throwing : public Strategy {
  public:
   std::string_view name() const override { return "throwing"; }
-  RepairOutcome repair(Mesh&, const RepairOptions&) override { throw std::runtime_error("out of luck"); }
+  RepairOutcome repair(Mesh&, const Move&) override { throw std::runtime_error("out of luck"); }
 };
 
 TEST(Stepper, IsUnchangedWhenAStrategyThrows) {

@@ -41,15 +41,15 @@ INSTANTIATE_TEST_SUITE_P(All, HardCase,
 
 TEST_P(HardCase, HasTheRegionsOnRecord) {
   const Mesh mesh = build_mesh(tangle_);
-  std::map<int, int> face_of_user;
-  for (int face = 0; face < mesh.n_faces(); ++face) face_of_user[mesh.user_face(face)] = face;
+  std::map<UserFace, Face> face_of_user;
+  for (const Face face : mesh.faces()) face_of_user[mesh.user_face(face)] = face;
   ASSERT_FALSE(expected_["regions"].empty());
   for (const json& region : expected_["regions"]) {
     SCOPED_TRACE(region["seed"]);
     LocalExploration exploration(mesh);
-    EXPECT_TRUE(exploration.run(face_of_user.at(region["seed"])));
+    EXPECT_TRUE(exploration.run(face_of_user.at(UserFace(region["seed"].get<int>()))));
     std::vector<int> faces;
-    for (const int face : exploration.faces()) faces.push_back(mesh.user_face(face));
+    for (const Face face : exploration.faces()) faces.push_back(mesh.user_face(face));
     std::ranges::sort(faces);
     EXPECT_EQ(faces, region["triangles"].get<std::vector<int>>());
     EXPECT_EQ(exploration.components(), region["components"]);
@@ -67,8 +67,8 @@ TEST_P(HardCase, OverlapsItselfWhereRecorded) {
   const LocalOracle oracle(sheets);
   for (const json& region : expected_["regions"]) {
     const auto recorded = region["triangles"].get<std::set<int>>();
-    std::vector<int> faces;
-    for (int face = 0; face < mesh.n_faces(); ++face) {
+    std::vector<Face> faces;
+    for (const Face face : mesh.faces()) {
       if (recorded.contains(mesh.user_face(face))) faces.push_back(face);
     }
     EXPECT_EQ(oracle.overlaps_itself(faces), region["self_overlap"]) << "seed " << region["seed"];

@@ -26,7 +26,7 @@ class Comparison {
       : mesh_(mesh), options_(options), sheets_(mesh, std::move(plane)), oracle_(sheets_) {}
 
   void run(Counts& counts) {
-    for (int face = 0; face < mesh_.n_faces(); ++face) {
+    for (const Face face : mesh_.faces()) {
       const int component = sheets_.component(face);
       if (component == none) continue;
       const bool first = !expected_.contains(component);
@@ -60,7 +60,7 @@ class Comparison {
     ++counts.minima;
   }
 
-  void compare_seed(int face, const Expected& expected, Counts& counts) const {
+  void compare_seed(Face face, const Expected& expected, Counts& counts) const {
     const auto& region = expected.region;
     LocalExploration fast(mesh_);
     const std::string seed = "seed " + std::to_string(mesh_.user_face(face));
@@ -76,9 +76,9 @@ class Comparison {
     ++counts.seeds;
   }
 
-  void compare_repair(int face, const Expected& expected) const {
+  void compare_repair(Face face, const Expected& expected) const {
     Mesh mesh = mesh_;
-    const std::array<int, 1> seeds{face};
+    const std::array<Face, 1> seeds{face};
     const auto outcome = LocalUntangling().repair_seeds(mesh, seeds, {});
     ASSERT_TRUE(outcome) << outcome.defect->message();
     const auto& region = outcome.record.regions.at(0);

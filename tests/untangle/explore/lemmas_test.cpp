@@ -68,7 +68,7 @@ std::vector<int> some(const std::vector<int>& all, Random& random) {
 // gamma_S, by asking every face.
 int cover_of(const Mesh& mesh, const Point& p) {
   int sum = 0;
-  for (int face = 0; face < mesh.n_faces(); ++face) {
+  for (const Face face : mesh.faces()) {
     const auto corners = mesh.corners(face);
     if (strictly_inside(p, corners)) sum += static_cast<int>(orientation(corners[0], corners[1], corners[2]));
   }

@@ -38,9 +38,10 @@ LocalOracle::LocalOracle(const Sheets& sheets) : sheets_(sheets) {
   }
   is_crease_vertex_.assign(sheets.plane().n_vertices, false);
   const Mesh& mesh = sheets.mesh();
-  for (const int edge : all_edges(mesh)) {
+  for (const Side edge : all_edges(mesh)) {
     if (!sheets.is_crease(edge)) continue;
-    for (const int v : {mesh.from(edge), mesh.to(edge)}) is_crease_vertex_[sheets.plane().place_of[v]] = true;
+    for (const Vertex v : {mesh.from(edge), mesh.to(edge)})
+      is_crease_vertex_[sheets.plane().place_of[v]] = true;
   }
 }
 
@@ -71,7 +72,7 @@ LocalRegion LocalOracle::region(int component) const {
   }
   require(x == shadow(out.components), "in the end X is not f(J)");
   out.faces = faces_of(out.lifts);
-  for (const int face : out.faces) out.inverted += sheets_.is_inverted(face) ? 1 : 0;
+  for (const Face face : out.faces) out.inverted += sheets_.is_inverted(face) ? 1 : 0;
   return out;
 }
 
@@ -111,14 +112,14 @@ Lifts LocalOracle::lifts_of(const std::vector<int>& components) const {
 
 std::vector<int> LocalOracle::components_in(const Lifts& r) const {
   std::set<int> all;
-  for (const int face : faces_of(r)) all.insert(sheets_.component(face));
+  for (const Face face : faces_of(r)) all.insert(sheets_.component(face));
   all.erase(none);
   return {all.begin(), all.end()};
 }
 
-std::vector<int> LocalOracle::faces_of(const Lifts& r) const {
-  std::vector<int> faces;
-  for (int face = 0; face < sheets_.mesh().n_faces(); ++face) {
+std::vector<Face> LocalOracle::faces_of(const Lifts& r) const {
+  std::vector<Face> faces;
+  for (const Face face : sheets_.mesh().faces()) {
     if (std::ranges::any_of(sheets_.lifts_of_face(face), [&](int lift) { return r[lift]; }))
       faces.push_back(face);
   }
@@ -242,27 +243,27 @@ bool LocalOracle::is_border_bijective(const Lifts& r) const {
     if (lifted[s] != (below[segment.left] != below[segment.right] ? 1 : 0)) return false;
     for (const int end : segment.ends) degree[end] += lifted[s];
   }
-  for (int v = 0; v < plane.n_vertices; ++v) {
-    if (!is_crease_vertex_[v] && degree[v] != 0 && degree[v] != 2) return false;
+  for (int place = 0; place < plane.n_vertices; ++place) {
+    if (!is_crease_vertex_[place] && degree[place] != 0 && degree[place] != 2) return false;
   }
   return true;
 }
 
 // --- whole faces ---
 
-std::vector<int> LocalOracle::sketch(int component) const {
+std::vector<Face> LocalOracle::sketch(int component) const {
   std::vector<int> components{component};
   std::vector<bool> visited(sheets_.mesh().n_faces(), false);
   for (;;) {
     const Cells x = shadow(components);
-    std::vector<int> pending;
-    for (int face = 0; face < sheets_.mesh().n_faces(); ++face) {
+    std::vector<Face> pending;
+    for (const Face face : sheets_.mesh().faces()) {
       const int own = sheets_.component(face);
       if (own != none && std::ranges::find(components, own) != components.end()) visited[face] = true;
       if (visited[face]) pending.push_back(face);
     }
     while (!pending.empty()) {
-      const int face = pending.back();
+      const Face face = pending.back();
       pending.pop_back();
       for (const int lift : sheets_.lifts_of_face(face)) {
         for (const auto& step : sheets_.steps(lift)) {
@@ -275,7 +276,7 @@ std::vector<int> LocalOracle::sketch(int component) const {
       }
     }
     std::set<int> now;
-    for (int face = 0; face < sheets_.mesh().n_faces(); ++face) {
+    for (const Face face : sheets_.mesh().faces()) {
       if (visited[face]) now.insert(sheets_.component(face));
     }
     now.erase(none);
@@ -283,27 +284,27 @@ std::vector<int> LocalOracle::sketch(int component) const {
     if (extended == components) break;
     components = extended;
   }
-  std::vector<int> faces;
-  for (int face = 0; face < sheets_.mesh().n_faces(); ++face) {
+  std::vector<Face> faces;
+  for (const Face face : sheets_.mesh().faces()) {
     if (visited[face]) faces.push_back(face);
   }
   return faces;
 }
 
 // Of the border of some faces around each cell: their signed cover.
-std::vector<int> LocalOracle::windings(const std::vector<int>& faces) const {
+std::vector<int> LocalOracle::windings(const std::vector<Face>& faces) const {
   Lifts all(sheets_.n_lifts(), false);
-  for (const int face : faces) {
+  for (const Face face : faces) {
     for (const int lift : sheets_.lifts_of_face(face)) all[lift] = true;
   }
   return gamma(all);
 }
 
-bool LocalOracle::overlaps_itself(const std::vector<int>& faces) const {
+bool LocalOracle::overlaps_itself(const std::vector<Face>& faces) const {
   return std::ranges::any_of(windings(faces), [](int winding) { return winding != 0 && winding != 1; });
 }
 
-bool LocalOracle::overlaps_itself(const std::vector<int>& faces, int component) const {
+bool LocalOracle::overlaps_itself(const std::vector<Face>& faces, int component) const {
   const auto winding = windings(faces);
   for (int cell = 0; cell < sheets_.n_cells(); ++cell) {
     if (shadow_of_[component][cell] && winding[cell] != 1) return true;

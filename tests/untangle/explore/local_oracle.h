@@ -13,7 +13,7 @@ using Lifts = std::vector<bool>;  // a set of lifts: part of the mesh
 
 struct LocalRegion {
   Lifts lifts;                  // R
-  std::vector<int> faces;       // R*, ascending
+  std::vector<Face> faces;      // R*, ascending
   std::vector<int> components;  // J, ascending
   int inverted = 0;             // faces of J
   int gamma_first_stable = 0;
@@ -37,14 +37,14 @@ class LocalOracle {
   bool is_locally_removable(const Lifts& r) const;
 
   // The paper's sketch, walking whole faces, without growing; may overstep the minimum.
-  std::vector<int> sketch(int component) const;
+  std::vector<Face> sketch(int component) const;
 
   // N(from, x): what can be reached from these lifts without leaving x.
   Lifts neighbourhood(const Lifts& from, const Cells& x) const;
   Cells shadow(const std::vector<int>& components) const;
   Lifts lifts_of(const std::vector<int>& components) const;
   std::vector<int> components_in(const Lifts& r) const;
-  std::vector<int> faces_of(const Lifts& r) const;
+  std::vector<Face> faces_of(const Lifts& r) const;
 
   // Signed number of lifts over each cell; 0 outside.
   std::vector<int> gamma(const Lifts& r) const;
@@ -66,12 +66,12 @@ class LocalOracle {
   bool is_border_bijective(const Lifts& r) const;
 
   // The border of R* overlaps itself in the plane.
-  bool overlaps_itself(const std::vector<int>& faces) const;
+  bool overlaps_itself(const std::vector<Face>& faces) const;
   // It does so over the component's shadow: there the faces of R* have lifts outside R.
-  bool overlaps_itself(const std::vector<int>& faces, int component) const;
+  bool overlaps_itself(const std::vector<Face>& faces, int component) const;
 
  private:
-  std::vector<int> windings(const std::vector<int>& faces) const;
+  std::vector<int> windings(const std::vector<Face>& faces) const;
   std::vector<std::pair<int, int>> first_pairs(const Lifts& r, const Cells& x) const;
 
   const Sheets& sheets_;

@@ -16,14 +16,15 @@ namespace kinemesh::test {
 class Sheets {
  public:
   struct Lift {
-    int face, cell;
+    Face face;
+    int cell;
   };
   // The neighbour across one segment of the lift's border: in the same face, or across an edge of the mesh,
   // where a crease folds back over the same cell.
   struct Step {
     int lift;     // none beyond the mesh
     int segment;  // of the subdivision
-    int edge;     // of the mesh, or none
+    Side edge;    // of the mesh, the lower side; or none
   };
 
   // Pre: plane == subdivide(mesh), is_general(mesh, plane).
@@ -34,24 +35,24 @@ class Sheets {
   int n_cells() const { return plane_.n_cells; }
   int n_lifts() const { return static_cast<int>(lifts_.size()); }
   const Lift& lift(int i) const { return lifts_[i]; }
-  std::span<const int> lifts_of_face(int face) const { return of_face_[face]; }
+  std::span<const int> lifts_of_face(Face face) const { return of_face_[face]; }
   std::span<const int> lifts_of_cell(int cell) const { return of_cell_[cell]; }
   std::span<const Step> steps(int lift) const { return steps_[lift]; }
 
-  bool is_inverted(int face) const { return inverted_[face]; }
+  bool is_inverted(Face face) const { return inverted_[face]; }
   int sign(int lift) const { return inverted_[lifts_[lift].face] ? -1 : 1; }
-  bool is_crease(int edge) const;
+  bool is_crease(Side edge) const;
 
   // Classes of inverted faces under "shares an edge with"; of an upright face: none.
-  int component(int face) const { return component_[face]; }
+  int component(Face face) const { return component_[face]; }
   int n_components() const { return n_components_; }
 
  private:
   void find_components();
-  void cover(int face);
-  std::vector<int> first_cells(int face) const;
-  int inner_cell(const Subdivision::Segment& segment, int side) const;
-  int lift_at(int face, int cell) const;
+  void cover(Face face);
+  std::vector<int> first_cells(Face face) const;
+  int inner_cell(const Subdivision::Segment& segment, Side side) const;
+  int lift_at(Face face, int cell) const;
   Step step(const Lift& from, int segment) const;
 
   const Mesh& mesh_;
@@ -63,7 +64,7 @@ class Sheets {
   std::vector<Lift> lifts_;
   std::vector<std::vector<int>> of_face_, of_cell_;  // ascending by cell and by face
   std::vector<std::vector<Step>> steps_;
-  std::vector<int> seen_;  // per cell: the last face that covers it, while covers are built
+  std::vector<Face> seen_;  // per cell: the last face that covers it, while covers are built
 };
 
 // No flat face, no segment under two edges, no vertex at another's place or on an edge, never three edges

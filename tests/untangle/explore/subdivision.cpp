@@ -23,9 +23,9 @@ Kernel::Point_2 exact(const Point& p) {
 
 Arrangement arrange(const Mesh& mesh) {
   std::vector<Traits::Curve_2> curves;
-  for (const int edge : all_edges(mesh)) {
+  for (const Side edge : all_edges(mesh)) {
     const auto a = exact(mesh.position(mesh.from(edge))), b = exact(mesh.position(mesh.to(edge)));
-    if (a != b) curves.emplace_back(SegmentTraits::Curve_2(a, b), edge);
+    if (a != b) curves.emplace_back(SegmentTraits::Curve_2(a, b), int{edge});
   }
   Arrangement arrangement;
   CGAL::insert(arrangement, curves.begin(), curves.end());
@@ -33,16 +33,17 @@ Arrangement arrange(const Mesh& mesh) {
 }
 
 template <class Handle>
-using Numbers = std::map<Handle, int>;
+using NumberOf = std::map<Handle, int>;
 
 Subdivision::Segment segment_of(const Arrangement::Halfedge& halfedge,
-                                const Numbers<Arrangement::Face_const_handle>& cells,
-                                const Numbers<Arrangement::Vertex_const_handle>& vertices) {
+                                const NumberOf<Arrangement::Face_const_handle>& cells,
+                                const NumberOf<Arrangement::Vertex_const_handle>& vertices) {
   const bool forward = halfedge.direction() == CGAL::ARR_LEFT_TO_RIGHT;
   const auto& h = forward ? halfedge : *halfedge.twin();
   Subdivision::Segment segment{
       cells.at(h.face()), cells.at(h.twin()->face()), {vertices.at(h.source()), vertices.at(h.target())}, {}};
-  for (auto it = h.curve().data().begin(); it != h.curve().data().end(); ++it) segment.edges.push_back(*it);
+  for (auto it = h.curve().data().begin(); it != h.curve().data().end(); ++it)
+    segment.edges.push_back(Side(*it));
   std::sort(segment.edges.begin(), segment.edges.end());
   return segment;
 }
@@ -52,9 +53,9 @@ Subdivision::Segment segment_of(const Arrangement::Halfedge& halfedge,
 Subdivision subdivide(const Mesh& mesh) {
   const Arrangement arrangement = arrange(mesh);
   Subdivision out;
-  Numbers<Arrangement::Face_const_handle> cells;
+  NumberOf<Arrangement::Face_const_handle> cells;
   for (auto it = arrangement.faces_begin(); it != arrangement.faces_end(); ++it) cells[it] = out.n_cells++;
-  Numbers<Arrangement::Vertex_const_handle> vertices;
+  NumberOf<Arrangement::Vertex_const_handle> vertices;
   std::map<Kernel::Point_2, int> places;
   for (auto it = arrangement.vertices_begin(); it != arrangement.vertices_end(); ++it) {
     places[it->point()] = out.n_vertices;
@@ -63,7 +64,7 @@ Subdivision subdivide(const Mesh& mesh) {
   for (auto it = arrangement.edges_begin(); it != arrangement.edges_end(); ++it) {
     out.segments.push_back(segment_of(*it, cells, vertices));
   }
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     out.place_of.push_back(mesh.is_isolated(v) ? none : places.at(exact(mesh.position(v))));
   }
   return out;

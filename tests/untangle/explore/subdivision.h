@@ -14,7 +14,7 @@ struct Subdivision {
   struct Segment {
     int left, right;          // cells
     std::array<int, 2> ends;  // vertices of the subdivision
-    std::vector<int> edges;   // the mesh's edges over it, ascending; exactly one in general position
+    std::vector<Side> edges;  // the mesh's edges over it, ascending; exactly one in general position
   };
 
   int n_cells = 0;

@@ -15,22 +15,22 @@ namespace kinemesh::test {
 namespace {
 
 struct Answer {
-  std::vector<int> faces{};  // user's
+  std::vector<UserFace> faces{};
   int components = 0, inverted = 0, gamma_first_stable = 0;
   bool operator==(const Answer&) const = default;
 };
 
-// By user's inverted face.
-std::map<int, Answer> answers(const MeshData& tangle) {
+// By inverted face.
+std::map<UserFace, Answer> answers(const MeshData& tangle) {
   const Mesh mesh = build_mesh(tangle);
-  std::map<int, Answer> all;
-  for (int face = 0; face < mesh.n_faces(); ++face) {
+  std::map<UserFace, Answer> all;
+  for (const Face face : mesh.faces()) {
     const auto [a, b, c] = mesh.corners(face);
     if (orientation(a, b, c) != Orientation::Clockwise) continue;
     LocalExploration exploration(mesh);
     if (!exploration.run(face)) continue;  // met a flat face
     Answer answer{{}, exploration.components(), exploration.inverted(), exploration.gamma_first_stable()};
-    for (const int f : exploration.faces()) answer.faces.push_back(mesh.user_face(f));
+    for (const Face f : exploration.faces()) answer.faces.push_back(mesh.user_face(f));
     std::ranges::sort(answer.faces);
     all[mesh.user_face(face)] = answer;
   }

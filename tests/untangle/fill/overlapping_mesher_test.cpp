@@ -33,14 +33,14 @@ struct Region {
   RemeshableSet set() const { return {mesh, sets, 0, cells}; }
 };
 
-Region explore(const Mesh& mesh, int seed) {
+Region explore(const Mesh& mesh, Face seed) {
   Region region{mesh, {}, {}};
   LocalExploration exploration(mesh);
   EXPECT_TRUE(exploration.run(seed));
   region.cells = exploration.cells();
   region.sets.reset(mesh.n_faces());
   region.sets.open();
-  for (const int face : exploration.faces()) region.sets.add(face, 0);
+  for (const Face face : exploration.faces()) region.sets.add(face, 0);
   return region;
 }
 
@@ -86,7 +86,7 @@ Number twice_area(const std::vector<ExactPoint>& points, const PlanePart& part) 
 Number twice_area(const Region& region, const ShadowBorder& border) {
   const auto set = region.set();
   Number sum = 0;
-  for (const int face : set.faces()) sum += twice_area(border.points, set.corners(face));
+  for (const Face face : set.faces()) sum += twice_area(border.points, set.corners(face));
   return sum;
 }
 
@@ -137,7 +137,7 @@ TEST(ShadowBorder, IsNotTiledWhereASheetIsMissing) {
 TEST(ShadowBorder, IsNothingWhereVerticesOfJCoincide) {
   auto region = region_of_vertex_behind_another();
   const auto at = region.mesh.positions();
-  at[region.mesh.vertex_of_user(3)] = at[region.mesh.vertex_of_user(1)];
+  at[region.mesh.vertex_of_user(UserVertex(3))] = at[region.mesh.vertex_of_user(UserVertex(1))];
   EXPECT_FALSE(trace_shadow_border(region.set()));
 }
 
@@ -209,8 +209,8 @@ TEST(OverlappingMesher, WorksStageByStageOnRandomTangles) {
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
     const Mesh mesh = build_mesh(random_tangle(seed));
-    std::set<std::vector<int>> seen;
-    for (const int face : detect(mesh).inverted) {
+    std::set<std::vector<Face>> seen;
+    for (const Face face : detect(mesh).inverted) {
       const auto region = explore(mesh, face);
       if (!seen.insert(region.sets.faces(0)).second) continue;
       expect_stages(region);
@@ -232,7 +232,7 @@ TEST(OverlappingMesher, KeepsConstrainedCreases) {
     for (const Edge& crease : crease_edges(data)) {
       data.markers = {{"line", {crease}}};
       const Mesh mesh = build_mesh(data);
-      for (const int face : detect(mesh).inverted) {
+      for (const Face face : detect(mesh).inverted) {
         Mesh mended = mesh;
         const auto outcome =
             LocalUntangling().repair_seeds(mended, std::array{face}, {.allow_escaped = true});

@@ -15,7 +15,7 @@ namespace kinemesh::test {
 namespace {
 
 RepairOutcome repair_retaining(Mesh& mesh, const std::string& strategy) {
-  return make_strategy(strategy)->repair(mesh, {.allow_escaped = true, .retain = true});
+  return make_strategy(strategy)->repair(mesh, RepairOptions{.allow_escaped = true, .retain = true});
 }
 
 // Kept faces are of the region, upright, as they were, and those that are not were replaced.
@@ -23,7 +23,7 @@ void expect_kept(const Mesh& before, const Mesh& after, const RegionRecord& regi
   EXPECT_TRUE(std::is_sorted(region.kept.begin(), region.kept.end()));
   EXPECT_TRUE(
       std::includes(region.faces.begin(), region.faces.end(), region.kept.begin(), region.kept.end()));
-  for (const int face : region.kept) {
+  for (const Face face : region.kept) {
     const auto [a, b, c] = before.corners(face);
     EXPECT_EQ(orientation(a, b, c), Orientation::CounterClockwise);
     EXPECT_EQ(before.triangles()[face], after.triangles()[face]);
@@ -70,7 +70,7 @@ TEST(Retention, KeepsFacesOfMinimumRegionsWhileOtherTanglesRemain) {
     LocalUntangling local;
     for (auto tangles = detect(mesh); !tangles.inverted.empty(); tangles = detect(mesh)) {
       const Mesh before = mesh;
-      const std::array<int, 1> seeds{tangles.inverted.front()};
+      const std::array<Face, 1> seeds{tangles.inverted.front()};
       const auto outcome = local.repair_seeds(mesh, seeds, {.allow_escaped = true, .retain = true});
       if (!outcome) break;
       ASSERT_EQ(message(validate_connectivity(mesh)), "");
@@ -102,16 +102,17 @@ TEST(Retention, MakesAFlipOfAVertexThatGoesThroughAnEdge) {
   Random random(3);
   Mesh mesh = build_mesh(random_grid(6, 6, random));
   const auto [face, k] = [&] {
-    for (int f = 0; f < mesh.n_faces(); ++f) {
+    for (const Face f : mesh.faces()) {
       for (int i = 0; i < 3; ++i) {
-        const int across = mesh.face_across(mesh.sides(f)[i]);
-        const int v = mesh.triangles()[f][(i + 2) % 3];
+        const Face across = mesh.face_across(Mesh::sides(f)[i]);
+        const Vertex v = mesh.triangles()[f][(i + 2) % 3];
         if (across != none && !mesh.is_constrained(v)) return std::pair(f, i);
       }
     }
-    return std::pair(none, none);
+    return std::pair(Face(), 0);
   }();
-  const int side = mesh.sides(face)[k], across = mesh.face_across(side);
+  const Side side = Mesh::side(face, k);
+  const Face across = mesh.face_across(side);
   const auto [a, b, c] = mesh.corners(across);
   const Point middle = 0.5 * (mesh.position(mesh.from(side)) + mesh.position(mesh.to(side)));
   mesh.positions()[mesh.triangles()[face][(k + 2) % 3]] = middle + 0.125 * ((a + b + c) / 3.0 - middle);

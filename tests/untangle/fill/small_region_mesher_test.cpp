@@ -18,7 +18,7 @@ namespace {
 using test::Random;
 
 // From the smallest corner on, ascending.
-std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
+std::vector<MeshTriangle> sorted(std::vector<MeshTriangle> triangles) {
   for (auto& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   std::sort(triangles.begin(), triangles.end());
   return triangles;
@@ -26,19 +26,19 @@ std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
 
 // Every side has one neighbour that agrees, or one side of the border that runs along it.
 bool is_linked(const Mesh& mesh, const NewFaces& faces) {
-  std::set<int> border;
+  std::set<Side> border;
   for (int t = 0; t < faces.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
-      const Edge ends{faces.triangles[t][k], faces.triangles[t][(k + 1) % 3]};
+      const MeshEdge ends{faces.triangles[t][k], faces.triangles[t][(k + 1) % 3]};
       const int across = faces.neighbours[t][k];
       if (across < 0) {
-        if (Edge{mesh.from(~across), mesh.to(~across)} != ends || !border.insert(~across).second)
-          return false;
+        const Side side(~across);
+        if (MeshEdge{mesh.from(side), mesh.to(side)} != ends || !border.insert(side).second) return false;
         continue;
       }
       const auto& back = faces.neighbours[across];
       const auto j = std::find(back.begin(), back.end(), t) - back.begin();
-      if (j == 3 || Edge{faces.triangles[across][(j + 1) % 3], faces.triangles[across][j]} != ends)
+      if (j == 3 || MeshEdge{faces.triangles[across][(j + 1) % 3], faces.triangles[across][j]} != ends)
         return false;
     }
   }
@@ -47,14 +47,14 @@ bool is_linked(const Mesh& mesh, const NewFaces& faces) {
 
 // No corner across a side strictly inside a face's circle.
 bool is_delaunay(const Mesh& mesh, const NewFaces& faces) {
-  const auto at = [&](int v) { return mesh.position(v); };
+  const auto at = [&](Vertex v) { return mesh.position(v); };
   for (int t = 0; t < faces.size(); ++t) {
     const auto [a, b, c] = faces.triangles[t];
     if (orientation(at(a), at(b), at(c)) != Orientation::CounterClockwise) return false;
     for (const int across : faces.neighbours[t]) {
       if (across < 0) continue;
-      for (const int d : faces.triangles[across])
-        if (in_circle(at(a), at(b), at(c), at(d)) == Side::Inside) return false;
+      for (const Vertex d : faces.triangles[across])
+        if (in_circle(at(a), at(b), at(c), at(d)) == InCircle::Inside) return false;
     }
   }
   return true;
@@ -103,13 +103,13 @@ void compare_blobs(const Mesh& mesh, Random& random, Tally& tally) {
     sets.reset(mesh.n_faces());
     const int set = sets.open();
     const auto size = static_cast<std::size_t>(1 + random.below(SmallRegionMesher::max_faces));
-    std::vector<int> met{random.below(mesh.n_faces())};
-    std::set<int> seen(met.begin(), met.end());
+    std::vector<Face> met{Face(random.below(mesh.n_faces()))};
+    std::set<Face> seen(met.begin(), met.end());
     for (std::size_t next = 0; next < met.size() && sets.faces(set).size() < size; ++next) {
       if (next > 0 && random.one_in(6)) continue;
       sets.add(met[next], set);
-      for (const int side : mesh.sides(met[next])) {
-        const int across = mesh.face_across(side);
+      for (const Side side : Mesh::sides(met[next])) {
+        const Face across = mesh.face_across(side);
         if (across != none && seen.insert(across).second) met.push_back(across);
       }
     }

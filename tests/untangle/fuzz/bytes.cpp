@@ -21,8 +21,8 @@ MeshData lattice_cells(Bytes& bytes) {
 }
 
 void move_on_lattice(Mesh& mesh, Bytes& bytes) {
-  for (int user = 0; user < mesh.n_user_vertices() && !bytes.empty(); ++user) {
-    const int v = mesh.vertex_of_user(user);
+  for (UserVertex user(0); user < mesh.n_user_vertices() && !bytes.empty(); ++user) {
+    const Vertex v = mesh.vertex_of_user(user);
     const int jump = bytes.below(64);
     if (jump < 49 && !mesh.is_isolated(v)) mesh.positions()[v] += Point(jump % 7 - 3, jump / 7 - 3);
   }

@@ -33,7 +33,7 @@ Mesh square(test::Bytes& bytes) {
   Mesh mesh = build_mesh(test::mapped(test::random_square(5 + bytes.below(28), random), scale, Point(0.0)));
   const double step = std::ldexp(1.0, -4 - bytes.below(8));
   const bool stays_inside = bytes.below(8) > 0;
-  for (int v = 0; v < mesh.n_vertices() && !bytes.empty(); ++v) {
+  for (Vertex v{0}; v < mesh.n_vertices() && !bytes.empty(); ++v) {
     if (mesh.is_constrained(v)) continue;
     const Point q = mesh.position(v) + step * scale * Point(bytes.below(256) - 128, bytes.below(256) - 128);
     const bool is_inside = 0.0 < q.x && q.x < scale.x && 0.0 < q.y && q.y < scale.y;

@@ -23,7 +23,7 @@ namespace {
 
 std::vector<FreeVertex> free_vertices(const Mesh& mesh) {
   std::vector<FreeVertex> free;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (const Vertex v : mesh.vertices())
     if (is_movable(mesh, v)) free.push_back({v});
   std::ranges::sort(free, {}, [&](const FreeVertex& f) { return mesh.user_vertex(f.vertex); });
   return free;
@@ -94,7 +94,7 @@ TEST(JointStar, SeesTheMesh) {
     const std::vector<Point> best = star.best_places();
     const auto tangent_now = [&] {
       double tangent = std::numeric_limits<double>::infinity();
-      for (const int face : star.faces())
+      for (const Face face : star.faces())
         if (!mesh.is_padding(face))
           tangent = std::min(tangent, tangent_of_smallest_angle(mesh.corners(face)));
       return tangent;
@@ -102,7 +102,7 @@ TEST(JointStar, SeesTheMesh) {
     EXPECT_NEAR(star.tangent() / tangent_now(), 1.0, 1e-9) << seed;
     for (std::size_t i = 0; i < free.size(); ++i) mesh.positions()[free[i].vertex] = best[i];
     EXPECT_NEAR(star.tangent_at(best) / tangent_now(), 1.0, 1e-9) << seed;
-    const auto is_fine = [&](int face) { return is_upright(mesh, face); };
+    const auto is_fine = [&](Face face) { return is_upright(mesh, face); };
     EXPECT_EQ(star.is_upright_at(best), std::ranges::all_of(star.faces(), is_fine)) << seed;
   }
 }
@@ -119,7 +119,7 @@ TEST(JointStar, GetsPastWhereSingleVerticesAreStuck) {
       moved = 0;
       for (const auto& [v, along] : free) {
         std::vector<LinkEdge> link;
-        for_each_side_from(mesh, v, [&](int side) {
+        for_each_side_from(mesh, v, [&](Side side) {
           link.push_back({mesh.position(mesh.to(side)), mesh.position(mesh.apex(side))});
         });
         const Point best = optimal_point(link, mesh.position(v));
@@ -164,7 +164,7 @@ TEST(JointStar, DoesNotDependOnHowTheMeshIsStored) {
                        : build_mesh(data, {.frame = 0.25});
       const auto free = free_vertices(mesh);
       const std::vector<Point> best = JointStar(mesh, free).best_places();
-      std::vector<std::pair<int, Point>> places;
+      std::vector<std::pair<UserVertex, Point>> places;
       for (std::size_t i = 0; i < free.size(); ++i)
         places.push_back({mesh.user_vertex(free[i].vertex), best[i]});
       return places;

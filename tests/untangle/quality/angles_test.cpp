@@ -53,11 +53,11 @@ double smallest(const std::array<Point, 3>& corners) {
 
 // --- Oracle: what could still be done, by looking at everything ---
 
-std::string flip_that_helps(const Mesh& mesh, int face) {
-  for (const int h : mesh.sides(face)) {
+std::string flip_that_helps(const Mesh& mesh, Face face) {
+  for (const Side h : mesh.sides(face)) {
     if (!mesh.is_flippable(h)) continue;
     Mesh flipped = mesh;
-    const int other = mesh.face_across(h);
+    const Face other = mesh.face_across(h);
     flipped.flip(h);
     if (!is_upright(flipped, face) || !is_upright(flipped, other)) continue;
     const double before = std::min(smallest(mesh.corners(face)), smallest(mesh.corners(other)));
@@ -68,24 +68,24 @@ std::string flip_that_helps(const Mesh& mesh, int face) {
 }
 
 // 100 places around the vertex, and the best one as far as optimal_point can tell.
-bool is_well_placed(const Mesh& mesh, int vertex) {
+bool is_well_placed(const Mesh& mesh, Vertex vertex) {
   std::vector<LinkEdge> link;
-  for_each_side_from(mesh, vertex, [&](int side) {
+  for_each_side_from(mesh, vertex, [&](Side side) {
     link.push_back({mesh.position(mesh.to(side)), mesh.position(mesh.apex(side))});
   });
   const Point x = mesh.position(vertex);
   return smallest_angle(link, optimal_point(link, x)) <= 1.0002 * smallest_angle(link, x);
 }
 
-std::string move_that_helps(const Mesh& mesh, int face) {
-  for (const int v : mesh.triangles()[face])
+std::string move_that_helps(const Mesh& mesh, Face face) {
+  for (const Vertex v : mesh.triangles()[face])
     if (is_free(mesh, v) && !is_well_placed(mesh, v)) return "move of vertex " + std::to_string(v);
   return "";
 }
 
 std::string what_is_left(const Mesh& mesh, double angle) {
   std::string left;
-  for (int f = 0; f < mesh.n_faces() && left.empty(); ++f) {
+  for (Face f{0}; f < mesh.n_faces() && left.empty(); ++f) {
     if (mesh.is_padding(f) || smallest(mesh.corners(f)) >= tangent_of(angle)) continue;
     left = flip_that_helps(mesh, f) + move_that_helps(mesh, f);
   }
@@ -165,10 +165,9 @@ TEST(Angles, ChangeNothingOfWhatIsFarFromABadOne) {
   improve_angles(mesh, {.angle = 20.0});
   ASSERT_GT(measure(mesh).min_angle_deg, 20.0 - 1e-9);
   const double near = 4.0 * mean_spacing(mesh);
-  int v = 0;
+  Vertex v(0);
   const auto distance = [&](const Point& p) { return std::hypot(p.x - 0.5, p.y - 0.5); };
-  for (int u = 0; u < mesh.n_vertices(); ++u)
-    v = distance(mesh.position(u)) < distance(mesh.position(v)) ? u : v;
+  for (const Vertex u : mesh.vertices()) v = distance(mesh.position(u)) < distance(mesh.position(v)) ? u : v;
   const Point place = mesh.position(v), neighbour = mesh.position(mesh.to(mesh.side_from(v)));
   double share = 1.0;
   do {
@@ -178,7 +177,7 @@ TEST(Angles, ChangeNothingOfWhatIsFarFromABadOne) {
   const Mesh before = mesh;
   const auto counts = improve_angles(mesh, {.angle = 20.0}).counts;
   EXPECT_GT(counts.moves + counts.flips, 0);
-  for (int u = 0; u < mesh.n_vertices(); ++u) {
+  for (const Vertex u : mesh.vertices()) {
     EXPECT_TRUE(distance(mesh.position(u)) < near || mesh.position(u) == before.position(u));
   }
 }
@@ -191,7 +190,8 @@ TEST(Angles, SayWhatTheyHaveMovedAndFlipped) {
     for (int again = 0; again < 2; ++again) {
       const Mesh now = mesh;
       const auto counts = upkeep.run(mesh);
-      std::set<int> moved, flipped(upkeep.flipped_faces().begin(), upkeep.flipped_faces().end());
+      std::set<Vertex> moved;
+      const std::set<Face> flipped(upkeep.flipped_faces().begin(), upkeep.flipped_faces().end());
       for (const auto& [vertex, was_at] : upkeep.moved_vertices()) {
         EXPECT_TRUE(moved.insert(vertex).second);
         EXPECT_EQ(was_at, now.position(vertex));
@@ -199,9 +199,9 @@ TEST(Angles, SayWhatTheyHaveMovedAndFlipped) {
       EXPECT_EQ(flipped.size(), upkeep.flipped_faces().size());
       EXPECT_LE(static_cast<int>(flipped.size()), 2 * counts.flips);
       EXPECT_LE(static_cast<int>(moved.size()), counts.moves);
-      for (int v = 0; v < mesh.n_vertices(); ++v)
+      for (const Vertex v : mesh.vertices())
         EXPECT_TRUE(moved.contains(v) || mesh.position(v) == now.position(v));
-      for (int f = 0; f < mesh.n_faces(); ++f)
+      for (const Face f : mesh.faces())
         EXPECT_TRUE(flipped.contains(f) || mesh.triangles()[f] == now.triangles()[f]);
     }
   }
@@ -301,7 +301,7 @@ TEST(Angles, NeverMoveWhatIsHeldOrFixed) {
     Mesh mesh = before;
     improve_angles(mesh, {.angle = 25.0}, freedom);
     expect_kept(before, mesh, std::to_string(seed));
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Vertex v : mesh.vertices()) {
       const bool is_moved = mesh.position(v) != before.position(v);
       EXPECT_FALSE(is_moved && (freedom.held[v] || before.is_fixed(v))) << seed;
       moved += is_moved;
@@ -333,8 +333,8 @@ Sliding crowded_square(double turn, std::uint64_t seed) {
   Mesh mesh = build_mesh(data, {.frame = 0.25});
   if (!repair(mesh, true)) throw std::logic_error("no valid mesh");
   VertexFreedom freedom;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (const int u = mesh.user_vertex(v); u != none && tangent[u] != Point(0.0, 0.0))
+  for (const Vertex v : mesh.vertices())
+    if (const UserVertex u = mesh.user_vertex(v); u != none && tangent[u] != Point(0.0, 0.0))
       freedom.tangents.emplace(v, tangent[u]);
   return {std::move(mesh), std::move(freedom)};
 }
@@ -350,7 +350,7 @@ TEST(Angles, LetVerticesSlideAlongTheirLinesInOrder) {
     gain += outcome.min_angle_after_deg - improve_angles(stiff, {.angle = 40.0}).min_angle_after_deg;
     EXPECT_EQ(message(validate(mesh)), "") << seed;
     EXPECT_GE(outcome.min_angle_after_deg, outcome.min_angle_before_deg);
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Vertex v : mesh.vertices()) {
       if (is_free(before, v)) continue;
       const Point d = mesh.position(v) - before.position(v);
       if (d == Point(0.0, 0.0)) continue;
@@ -359,8 +359,9 @@ TEST(Angles, LetVerticesSlideAlongTheirLinesInOrder) {
       const Point t = freedom.tangents.at(v);
       EXPECT_LE(std::abs(d.x * t.y - d.y * t.x), turn == 0.0 ? 0.0 : 1e-15) << seed;
     }
-    for (const auto& [v, t] : freedom.tangents) {  // its neighbours along the border are still on either side
-      for_each_neighbour(mesh, v, [&, v = v, t = t](int neighbour, int side) {
+    for (const auto& [number, t] : freedom.tangents) {
+      const Vertex v(number);  // its neighbours along the border are still on either side
+      for_each_neighbour(mesh, v, [&, t = t](Vertex neighbour, Side side) {
         if (mesh.constraint_of(side) == none) return;
         const Point now = mesh.position(neighbour) - mesh.position(v);
         const Point then = before.position(neighbour) - before.position(v);
@@ -375,19 +376,19 @@ TEST(Angles, LetVerticesSlideAlongTheirLinesInOrder) {
 
 // The circles of an annulus slide.
 struct Circle {
-  std::vector<int> vertices;  // users' numbers, in order
+  std::vector<UserVertex> vertices;  // in order
   Polyline line;
 };
 
 std::vector<Circle> circles_of(const MeshData& annulus) {
   std::vector<Circle> circles;
   for (const Marker& marker : annulus.markers) {
-    std::vector<int> vertices;
-    for (const Edge& edge : marker.edges) vertices.push_back(edge[0]);
+    std::vector<UserVertex> vertices;
+    for (const Edge& edge : marker.edges) vertices.push_back(UserVertex(edge[0]));
     std::ranges::sort(vertices, {},
-                      [&](int v) { return std::atan2(annulus.points[v].y, annulus.points[v].x); });
+                      [&](UserVertex v) { return std::atan2(annulus.points[v].y, annulus.points[v].x); });
     std::vector<Point> points;
-    for (const int v : vertices) points.push_back(annulus.points[v]);
+    for (const UserVertex v : vertices) points.push_back(annulus.points[v]);
     points.push_back(points.front());
     circles.push_back({std::move(vertices), Polyline(std::move(points))});
   }
@@ -397,7 +398,7 @@ std::vector<Circle> circles_of(const MeshData& annulus) {
 VertexFreedom freedom_on(const std::vector<Circle>& circles, const Mesh& mesh) {
   VertexFreedom freedom;
   for (const Circle& circle : circles) {
-    for (const int user : circle.vertices)
+    for (const UserVertex user : circle.vertices)
       freedom.curve_of.emplace(mesh.vertex_of_user(user), static_cast<int>(freedom.curves.size()));
     freedom.curves.push_back(circle.line);
   }
@@ -408,7 +409,7 @@ VertexFreedom freedom_on(const std::vector<Circle>& circles, const Mesh& mesh) {
 MeshData crowded(MeshData annulus, const std::vector<Circle>& circles, std::uint64_t seed) {
   Random random(seed);
   for (const auto& [vertices, line] : circles)
-    for (const int v : vertices) {
+    for (const UserVertex v : vertices) {
       const double way = random.between(-0.45, 0.45) * line.length() / static_cast<double>(vertices.size());
       annulus.points[v] = line.at(line.parameter_near(annulus.points[v]) + way);
     }
@@ -442,7 +443,7 @@ TEST(Angles, LetVerticesSlideAlongCurvesInOrder) {
     gain += outcome.min_angle_after_deg - improve_angles(stiff, {.angle = 35.0}).min_angle_after_deg;
     EXPECT_EQ(message(validate(mesh)), "") << seed;
     EXPECT_GE(outcome.min_angle_after_deg, outcome.min_angle_before_deg) << seed;
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Vertex v : mesh.vertices()) {
       if (is_free(before, v) || mesh.position(v) == before.position(v)) continue;
       ++slid;
       ASSERT_TRUE(freedom.curve_of.contains(v)) << seed;
@@ -484,7 +485,7 @@ TEST(Angles, LeaveTheConvexHullOfTheMeshWhereItIs) {
     EXPECT_EQ(message(validate(mesh)), "") << seed;
     const auto now = mesh.user_positions();
     for (std::size_t i = 0; i < circles.size(); ++i)
-      for (const int v : circles[i].vertices) {
+      for (const UserVertex v : circles[i].vertices) {
         const bool is_moved = now[v] != annulus.points[v], is_outer = glm::length(annulus.points[v]) > 0.75;
         EXPECT_FALSE(is_moved && is_outer) << seed;
         slid += is_moved;

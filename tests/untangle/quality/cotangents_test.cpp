@@ -18,7 +18,7 @@ struct Pair {
   Point a, b, c, d;
 
   bool is_proved() const { return cotangent_bounds({a, b, c})[0] + cotangent_bounds({b, a, d})[0] >= 0.0f; }
-  bool is_delaunay() const { return in_circle(a, b, c, d) != Side::Inside; }
+  bool is_delaunay() const { return in_circle(a, b, c, d) != InCircle::Inside; }
 };
 
 Pair random_pair(Random& random) {

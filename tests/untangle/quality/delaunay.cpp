@@ -19,9 +19,10 @@ Edge sorted(int a, int b) {
 
 // From scratch, over the vertices that are in faces.
 EdgeSet triangulated_edges(const Mesh& mesh) {
-  std::vector<int> vertices, number(mesh.n_vertices(), none);
+  std::vector<Vertex> vertices;
+  std::vector<int> number(mesh.n_vertices(), none);
   std::vector<Point> points;
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (mesh.is_isolated(v)) continue;
     number[v] = static_cast<int>(vertices.size());
     vertices.push_back(v);
@@ -38,11 +39,11 @@ EdgeSet triangulated_edges(const Mesh& mesh) {
   return edges;
 }
 
-Edge ends(const Mesh& mesh, int edge) {
+Edge ends(const Mesh& mesh, Side edge) {
   return sorted(mesh.from(edge), mesh.to(edge));
 }
 
-Side opposite_vertex(const Mesh& mesh, int edge) {
+InCircle opposite_vertex(const Mesh& mesh, Side edge) {
   const auto [a, b, c] = mesh.corners(Mesh::face_of(edge));
   return in_circle(a, b, c, mesh.position(mesh.apex(mesh.opposite(edge))));
 }
@@ -52,10 +53,10 @@ Side opposite_vertex(const Mesh& mesh, int edge) {
 std::string not_delaunay(const Mesh& mesh) {
   const auto expected = triangulated_edges(mesh);
   if (static_cast<int>(expected.size()) != mesh.n_edges()) return "another number of edges";
-  for (const int edge : all_edges(mesh)) {
+  for (const Side edge : all_edges(mesh)) {
     if (expected.contains(ends(mesh, edge))) continue;
     if (mesh.constraint_of(edge) != none) return "a constrained edge is missing";
-    if (mesh.is_flippable(edge) && opposite_vertex(mesh, edge) == Side::On) continue;
+    if (mesh.is_flippable(edge) && opposite_vertex(mesh, edge) == InCircle::On) continue;
     return "edge " + std::to_string(ends(mesh, edge)[0]) + "-" + std::to_string(ends(mesh, edge)[1]) +
            " is not Delaunay";
   }
@@ -65,14 +66,14 @@ std::string not_delaunay(const Mesh& mesh) {
 int n_foreign_edges(const Mesh& mesh) {
   const auto expected = triangulated_edges(mesh);
   int foreign = 0;
-  for (const int edge : all_edges(mesh)) foreign += !expected.contains(ends(mesh, edge));
+  for (const Side edge : all_edges(mesh)) foreign += !expected.contains(ends(mesh, edge));
   return foreign;
 }
 
 int n_not_locally_delaunay(const Mesh& mesh) {
   int count = 0;
-  for (const int edge : all_edges(mesh))
-    count += mesh.is_flippable(edge) && opposite_vertex(mesh, edge) == Side::Inside;
+  for (const Side edge : all_edges(mesh))
+    count += mesh.is_flippable(edge) && opposite_vertex(mesh, edge) == InCircle::Inside;
   return count;
 }
 

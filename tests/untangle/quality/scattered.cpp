@@ -49,7 +49,7 @@ MeshData marked_inside(MeshData data) {
 }
 
 bool is_inside(const Mesh& mesh, const Point& p, int label) {
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     if (mesh.label(f) == label && strictly_inside(p, mesh.corners(f))) return true;
   }
   return false;
@@ -82,7 +82,7 @@ Mesh scattered(const Mesh& mesh, double spacings, std::uint64_t seed) {
   Mesh result = mesh;
   Random random(seed);
   const double reach = spacings * mean_spacing(mesh);
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  for (const Vertex v : mesh.vertices()) {
     if (!is_free(mesh, v)) continue;
     Point there;
     do {
@@ -96,8 +96,8 @@ Mesh scattered(const Mesh& mesh, double spacings, std::uint64_t seed) {
 Mesh exchanged(const Mesh& mesh, std::uint64_t seed) {
   Mesh result = mesh;
   Random random(seed);
-  std::map<int, std::vector<int>> free;
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
+  std::map<int, std::vector<Vertex>> free;
+  for (const Vertex v : mesh.vertices()) {
     if (is_free(mesh, v)) free[mesh.home_label(v)].push_back(v);
   }
   for (const auto& [label, vertices] : free) {
@@ -107,7 +107,7 @@ Mesh exchanged(const Mesh& mesh, std::uint64_t seed) {
   return result;
 }
 
-bool is_free(const Mesh& mesh, int v) {
+bool is_free(const Mesh& mesh, Vertex v) {
   return mesh.user_vertex(v) != none && !mesh.is_isolated(v) && !mesh.is_constrained(v) && !mesh.is_fixed(v);
 }
 
@@ -131,7 +131,7 @@ int n_tangled(const Mesh& mesh) {
 }
 
 std::string moved_what_stays(const Mesh& before, const Mesh& after) {
-  for (int v = 0; v < before.n_vertices(); ++v) {
+  for (const Vertex v : before.vertices()) {
     if (!is_free(before, v) && before.position(v) != after.position(v))
       return "moved vertex " + std::to_string(v);
   }

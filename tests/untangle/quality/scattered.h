@@ -26,7 +26,7 @@ Mesh scattered(const Mesh& mesh, double spacings, std::uint64_t seed);
 Mesh exchanged(const Mesh& mesh, std::uint64_t seed);
 
 // Of no constrained edge, not fixed, of the user.
-bool is_free(const Mesh& mesh, int vertex);
+bool is_free(const Mesh& mesh, Vertex vertex);
 
 // The same mesh with its faces in another order, each from another corner.
 MeshData shuffled(const MeshData& data, std::uint64_t seed);

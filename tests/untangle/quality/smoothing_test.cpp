@@ -42,14 +42,13 @@ Mesh bad_but_valid(std::uint64_t seed) {
 
 double smallest_angle_of_any_face(const Mesh& mesh) {
   double tangent = std::numeric_limits<double>::infinity();
-  for (int f = 0; f < mesh.n_faces(); ++f)
-    tangent = std::min(tangent, tangent_of_smallest_angle(mesh.corners(f)));
+  for (const Face f : mesh.faces()) tangent = std::min(tangent, tangent_of_smallest_angle(mesh.corners(f)));
   return tangent;
 }
 
 int count_moved(const Mesh& a, const Mesh& b) {
   int moved = 0;
-  for (int v = 0; v < a.n_vertices(); ++v) moved += a.position(v) != b.position(v);
+  for (const Vertex v : a.vertices()) moved += a.position(v) != b.position(v);
   return moved;
 }
 
@@ -189,7 +188,7 @@ TEST_P(Smooth, StaysValidInNearlyDegeneratePositions) {
     auto [about, mesh, was_at] = lattice_tangle(seed);
     Random random(seed);
     const auto near = [&](double x) { return x * (1.0 + (random.below(9) - 4) * 0x1p-52); };
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
+    for (const Vertex v : mesh.vertices()) {
       if (is_free(mesh, v)) mesh.positions()[v] = {near(mesh.position(v).x), near(mesh.position(v).y)};
     }
     const auto outcome = smooth(mesh, allow);
@@ -232,7 +231,8 @@ TEST_P(Smooth, NamesCoincidentVerticesAndMovesNone) {
     const auto outcome = smooth(mesh, options());
     ASSERT_FALSE(outcome);
     EXPECT_EQ(outcome.defect->kind, DefectKind::CoincidentVertices);
-    EXPECT_EQ(std::minmax(outcome.defect->vertices.at(0), outcome.defect->vertices.at(1)), std::minmax(a, b));
+    EXPECT_EQ(std::minmax(outcome.defect->vertices.at(0), outcome.defect->vertices.at(1)),
+              std::minmax(UserVertex(a), UserVertex(b)));
     EXPECT_EQ(count_moved(before, mesh), 0);
     EXPECT_EQ(outcome.sweeps, 0);
     EXPECT_EQ(outcome.min_angle_after_deg, 0);

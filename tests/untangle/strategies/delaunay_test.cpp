@@ -19,7 +19,7 @@ namespace {
 constexpr RepairOptions allowing{.allow_escaped = true};
 
 // Both faces upright afterwards.
-bool can_flip_in_place(const Mesh& mesh, int edge) {
+bool can_flip_in_place(const Mesh& mesh, Side edge) {
   if (!mesh.is_flippable(edge)) return false;
   return segments_cross(mesh.position(mesh.from(edge)), mesh.position(mesh.to(edge)),
                         mesh.position(mesh.apex(edge)), mesh.position(mesh.apex(mesh.opposite(edge))));
@@ -29,7 +29,7 @@ int flip_at_random(Mesh& mesh, int attempts, std::uint64_t seed) {
   Random random(seed);
   int flips = 0;
   for (int i = 0; i < attempts; ++i) {
-    const int edge = random_edge(mesh, random);
+    const Side edge = random_edge(mesh, random);
     if (!can_flip_in_place(mesh, edge)) continue;
     mesh.flip(edge);
     ++flips;
@@ -151,14 +151,14 @@ TEST(DelaunayFlipping, FindsFromChangedFacesWhatItFindsFromAll) {
     DelaunayFlipping flipping;
     ASSERT_TRUE(flipping.run(mesh));
     Random random(seed);
-    std::vector<int> faces;
+    std::vector<Face> faces;
     for (int i = 0; i < 4; ++i) {
-      const int v = random.below(mesh.n_vertices());
+      const Vertex v(random.below(mesh.n_vertices()));
       if (!is_free(mesh, v)) continue;
       const Mesh before = mesh;
       mesh.positions()[v] = scattered(mesh, 1.0, seed).position(v);
       if (n_tangled(mesh) > 0) mesh = before;
-      for_each_side_from(mesh, v, [&](int side) { faces.push_back(Mesh::face_of(side)); });
+      for_each_side_from(mesh, v, [&](Side side) { faces.push_back(Mesh::face_of(side)); });
     }
     const auto sides = sides_of(mesh, faces);
     const auto outcome = flipping.run(mesh, sides);
@@ -178,16 +178,16 @@ TEST(DelaunayFlipping, LeavesTanglesAloneThatItDoesNotMeet) {
   place(mesh, at(4, 4), {0.33, 0.21});
   place(mesh, at(16, 16), {0.87, 0.81});
   const Mesh before = mesh;
-  std::vector<int> faces;
-  for_each_side_from(mesh, mesh.vertex_of_user(at(4, 4)),
-                     [&](int side) { faces.push_back(Mesh::face_of(side)); });
+  std::vector<Face> faces;
+  for_each_side_from(mesh, mesh.vertex_of_user(UserVertex(at(4, 4))),
+                     [&](Side side) { faces.push_back(Mesh::face_of(side)); });
   const auto outcome = DelaunayFlipping().run(mesh, sides_of(mesh, faces));
   ASSERT_TRUE(outcome);
   EXPECT_EQ(outcome.untangled, 1);
   EXPECT_GT(outcome.flips, 0);
   EXPECT_LT(outcome.visits, 200);
   int tangled = 0;
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     const Point middle = (mesh.corners(f)[0] + mesh.corners(f)[1] + mesh.corners(f)[2]) / 3.0;
     if (middle.x < 0.55 && middle.y < 0.55)
       EXPECT_TRUE(is_upright(mesh, f));
@@ -209,7 +209,8 @@ TEST(DelaunayFlipping, NamesCoincidentVerticesAndStaysSound) {
     const auto outcome = DelaunayFlipping().run(mesh);
     ASSERT_FALSE(outcome);
     EXPECT_EQ(outcome.defect->kind, DefectKind::CoincidentVertices);
-    EXPECT_EQ(std::minmax(outcome.defect->vertices.at(0), outcome.defect->vertices.at(1)), std::minmax(a, b));
+    const auto& [first, second] = std::pair(outcome.defect->vertices.at(0), outcome.defect->vertices.at(1));
+    EXPECT_EQ(std::minmax<int>({first, second}), std::minmax({a, b}));
     expect_sound(before, mesh);
   }
 }
@@ -231,7 +232,7 @@ TEST(DelaunayFlipping, ForgetsWhatAFailureHasLeft) {
 
 TEST(DelaunayFlipping, RefusesSidesThatDoNotExist) {
   Mesh mesh = build_mesh(four_triangles());
-  for (const int side : {-1, Mesh::side(1, 3), Mesh::side(mesh.n_faces(), 0)})
+  for (const Side side : {Side(none), Mesh::side(Face(1), 3), Mesh::side(Face(mesh.n_faces()), 0)})
     EXPECT_THROW((void)DelaunayFlipping().run(mesh, std::vector{side}), InputError);
 }
 

@@ -30,6 +30,10 @@ Edge sorted(Edge edge) {
   return edge;
 }
 
+Edge sorted(const UserEdge& edge) {
+  return sorted(Edge{edge[0], edge[1]});
+}
+
 std::vector<Edge> sorted_edges(const Defect& defect) {
   std::vector<Edge> edges;
   for (const auto& edge : defect.edges) edges.push_back(sorted(edge));
@@ -105,7 +109,7 @@ TEST(Failure, NamesAVertexOnABorderAndOnAMarker) {
   EXPECT_EQ(on_border.kind, DefectKind::VertexOnEdge);
   EXPECT_THAT(on_border.vertices, ElementsAre(8));
   EXPECT_EQ(on_border.where, Point(4, 3));
-  EXPECT_EQ(sorted(on_border.edges.at(0)), sorted({vertex_at(data, {4, 2}), vertex_at(data, {4, 4})}));
+  EXPECT_EQ(sorted(on_border.edges.at(0)), sorted(Edge{vertex_at(data, {4, 2}), vertex_at(data, {4, 4})}));
 
   data.markers = {{"wire", {{9, 10}}}};
   Mesh wired = build_mesh(data);

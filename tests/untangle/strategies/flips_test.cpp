@@ -19,7 +19,7 @@ namespace {
 __extension__ using Wide = __int128;
 
 // Twice the area in units of 2^-48, of coordinates that are multiples of 2^-24.
-Wide area(const Mesh& mesh, int face) {
+Wide area(const Mesh& mesh, Face face) {
   const auto i = [](double x) { return static_cast<Wide>(x * 0x1p24); };
   const auto [a, b, c] = mesh.corners(face);
   return (i(b.x) - i(a.x)) * (i(c.y) - i(a.y)) - (i(b.y) - i(a.y)) * (i(c.x) - i(a.x));
@@ -28,7 +28,7 @@ Wide area(const Mesh& mesh, int face) {
 // What every flip has to make smaller: the inverted area, and then the number of faces not upright.
 std::pair<Wide, int> disorder(const Mesh& mesh) {
   std::pair<Wide, int> sum{0, 0};
-  for (int f = 0; f < mesh.n_faces(); ++f) {
+  for (const Face f : mesh.faces()) {
     const auto size = area(mesh, f);
     sum.first += size < 0 ? -size : 0;
     sum.second += size <= 0;
@@ -36,13 +36,13 @@ std::pair<Wide, int> disorder(const Mesh& mesh) {
   return sum;
 }
 
-bool opposite_vertices_differ(const Mesh& mesh, int edge) {
+bool opposite_vertices_differ(const Mesh& mesh, Side edge) {
   return mesh.apex(edge) != mesh.apex(mesh.opposite(edge));
 }
 
 // Compares the test with what the flip does, for each edge, and leaves the mesh with some of them flipped.
 void expect_flips_judged_right(Mesh& mesh, Random& random, int& allowed) {
-  for (int edge : all_edges(mesh)) {
+  for (Side edge : all_edges(mesh)) {
     if (!mesh.is_flippable(edge) || !opposite_vertices_differ(mesh, edge)) continue;
     const auto before = disorder(mesh);
     const bool untangles = flip_untangles(mesh, edge);
@@ -56,7 +56,7 @@ void expect_flips_judged_right(Mesh& mesh, Random& random, int& allowed) {
 // Upright or inverted faces as the defect says, by the corners it names.
 bool is_true(const Mesh& mesh, const Defect& defect) {
   const auto at = [&](int i) { return mesh.position(mesh.vertex_of_user(defect.vertices.at(i))); };
-  const auto has_number = [](int v) { return v != none; };
+  const auto has_number = [](UserVertex v) { return v != none; };
   if (!std::all_of(defect.vertices.begin(), defect.vertices.end(), has_number)) return true;  // of the frame
   const auto turn = orientation(at(0), at(1), at(2));
   return defect.kind == DefectKind::InvertedFace ? turn == Orientation::Clockwise
@@ -189,7 +189,7 @@ TEST(EdgeFlips, DoNotDependOnWhatWasBefore) {
   EdgeFlips veteran;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Mesh a = random_tangle(seed).mesh, b = a;
-    const auto by_veteran = veteran.repair(a, {.allow_escaped = true});
+    const auto by_veteran = veteran.repair(a, RepairOptions{.allow_escaped = true});
     EXPECT_EQ(static_cast<bool>(by_veteran), static_cast<bool>(repair(b, true, "flips")));
     EXPECT_EQ(snapshot_of(a), snapshot_of(b)) << seed;
   }

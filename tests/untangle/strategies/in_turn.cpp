@@ -11,7 +11,7 @@
 namespace kinemesh::test {
 namespace {
 
-std::vector<int> seeds_of(const Mesh& mesh) {
+std::vector<Face> seeds_of(const Mesh& mesh) {
   const auto tangles = detect(mesh);
   auto seeds = tangles.inverted;
   seeds.insert(seeds.end(), tangles.flat.begin(), tangles.flat.end());
@@ -28,7 +28,7 @@ std::string region_broken(const Mesh& before, const Mesh& after, const RepairRec
 }
 
 bool has_valid_mesh(Mesh mesh) {
-  return static_cast<bool>(make_strategy("global")->repair(mesh, {.allow_escaped = true}));
+  return static_cast<bool>(make_strategy("global")->repair(mesh, RepairOptions{.allow_escaped = true}));
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ std::string check_in_turn(const Mesh& tangled, Random& random) {
   LocalUntangling local;
   for (auto seeds = seeds_of(mesh); !seeds.empty(); seeds = seeds_of(mesh)) {
     const Mesh before = mesh;
-    const std::array<int, 1> seed{seeds[random.below(static_cast<int>(seeds.size()))]};
+    const std::array<Face, 1> seed{seeds[random.below(static_cast<int>(seeds.size()))]};
     const auto outcome = local.repair_seeds(mesh, seed, {.allow_escaped = true, .retain = random.one_in(3)});
     if (!outcome) {
       if (!(snapshot_of(before) == snapshot_of(mesh))) return "a failure left its traces";

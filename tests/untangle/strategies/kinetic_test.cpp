@@ -86,7 +86,7 @@ TEST(Kinetic, GoesOnForManySteps) {
     Random random(seed);
     for (int step = 0; step < 40; ++step) {
       ASSERT_EQ(check_in_motion(tangle.mesh, tangle.before, totals), "") << seed << " " << step;
-      ASSERT_TRUE(kinetic.repair(tangle.mesh, {.before = tangle.before}));
+      ASSERT_TRUE(kinetic.repair(tangle.mesh, Move({}, tangle.before)));
       tangle.before = positions_of(tangle.mesh);
       move_free(tangle.mesh, [&](const Point& p) {
         return p + 0.25 * (Point(random.between(0.01, 0.99), random.between(0.01, 0.99)) - p);
@@ -115,7 +115,7 @@ TEST(Kinetic, MakesTheSameOfOneStepAndOfItsParts) {
     const Tangle tangle = in_a_square(seed);
     Mesh whole = tangle.mesh, cut = tangle.mesh;
     KineticUntangling kinetic;
-    ASSERT_TRUE(kinetic.repair(whole, {.before = tangle.before}));
+    ASSERT_TRUE(kinetic.repair(whole, Move({}, tangle.before)));
     const int n_flips = kinetic.counts().flips;
     auto at = tangle.before;
     int n_flips_cut = 0;
@@ -124,7 +124,7 @@ TEST(Kinetic, MakesTheSameOfOneStepAndOfItsParts) {
       const auto before = at;
       for (std::size_t v = 0; v < at.size(); ++v) at[v] = tangle.before[v] + t * (end[v] - tangle.before[v]);
       std::copy(at.begin(), at.end(), cut.positions().begin());
-      ASSERT_TRUE(kinetic.repair(cut, {.before = before}));
+      ASSERT_TRUE(kinetic.repair(cut, Move({}, before)));
       n_flips_cut += kinetic.counts().flips;
     }
     EXPECT_TRUE(snapshot_of(whole) == snapshot_of(cut)) << seed;
@@ -143,7 +143,7 @@ TEST(Kinetic, FlipsTheEdgeThatIsCrossed) {
   const auto before = positions_of(mesh);
   place(mesh, 6, {5, 2});
   KineticUntangling kinetic;
-  const auto outcome = kinetic.repair(mesh, {.before = before});
+  const auto outcome = kinetic.repair(mesh, Move({}, before));
   ASSERT_TRUE(outcome);
   EXPECT_EQ(message(validate(mesh)), "");
   EXPECT_EQ(kinetic.counts().events, 1);
@@ -218,7 +218,7 @@ TEST(Kinetic, LetsAVertexLeaveThroughAConstraintAndComeBack) {
   place(mesh, find(b), {6, 5});
   place(mesh, find(c), {4.875, 2});
   Mesh halfway = mesh;
-  for (int v = 0; v < mesh.n_vertices(); ++v) halfway.positions()[v] = 0.5 * (before[v] + mesh.position(v));
+  for (const Vertex v : mesh.vertices()) halfway.positions()[v] = 0.5 * (before[v] + mesh.position(v));
   EXPECT_EQ(orientation(position_of(halfway, find(a)), position_of(halfway, find(b)),
                         position_of(halfway, find(c))),
             Orientation::CounterClockwise);
@@ -236,8 +236,8 @@ TEST(Kinetic, LetsVerticesMeetOnTheirWay) {
   const Mesh mesh = build_mesh(random_grid(4, 4, random));
   const auto before = positions_of(mesh);
   MotionTotals totals;
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
-    for (int w = 0; w < v; ++w) {
+  for (const Vertex v : mesh.vertices()) {
+    for (Vertex w{0}; w < v; ++w) {
       if (mesh.is_constrained(v) || mesh.is_constrained(w)) continue;
       Mesh swapped = mesh;
       std::swap(swapped.positions()[v], swapped.positions()[w]);
@@ -257,9 +257,9 @@ TEST(Kinetic, HasNothingToDoWhereNothingCollapses) {
     Mesh still = tangle.mesh;
     std::copy(tangle.before.begin(), tangle.before.end(), still.positions().begin());
     const Mesh built = still;
-    EXPECT_TRUE(KineticUntangling().repair(still, {.before = tangle.before}).record.regions.empty());
+    EXPECT_TRUE(KineticUntangling().repair(still, Move({}, tangle.before)).record.regions.empty());
     for (auto& p : still.positions()) p = {3 - 2 * p.y, 2 * p.x - 1};
-    const auto outcome = KineticUntangling().repair(still, {.before = tangle.before});
+    const auto outcome = KineticUntangling().repair(still, Move({}, tangle.before));
     EXPECT_TRUE(outcome && outcome.record.regions.empty() && outcome.record.replaced == 0);
     still.swap_positions(*std::make_unique<std::vector<Point>>(tangle.before));
     EXPECT_TRUE(snapshot_of(still) == snapshot_of(built));
@@ -270,13 +270,13 @@ TEST(Kinetic, DoesNotDependOnThreadsOrOnWhatItDidBefore) {
   KineticUntangling used;
   for (int seed = 1; seed <= 200; ++seed) {
     const Tangle tangle = random_tangle(seed);
-    const RepairOptions options{.allow_escaped = true, .before = tangle.before};
+    const Move move({.allow_escaped = true}, tangle.before);
     Mesh one = tangle.mesh, two = tangle.mesh;
     {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-      ASSERT_TRUE(KineticUntangling().repair(one, options));
+      ASSERT_TRUE(KineticUntangling().repair(one, move));
     }
-    ASSERT_TRUE(used.repair(two, options));
+    ASSERT_TRUE(used.repair(two, move));
     EXPECT_TRUE(snapshot_of(one) == snapshot_of(two)) << seed;
   }
 }
@@ -286,13 +286,13 @@ TEST(Kinetic, DoesTheSameTurnedAndAtAnySize) {
   for (int seed = 1; seed <= 60; ++seed) {
     const Tangle tangle = in_a_square(seed);
     Mesh plain = tangle.mesh;
-    ASSERT_TRUE(KineticUntangling().repair(plain, {.before = tangle.before}));
+    ASSERT_TRUE(KineticUntangling().repair(plain, Move({}, tangle.before)));
     for (const double size : {1.0, 0x1p-1000, 0x1p-400, 0x1p400, 0x1p1000}) {
       Mesh mesh = tangle.mesh;
       auto before = tangle.before;
       for (const auto positions : {mesh.positions(), std::span<Point>(before)})
         for (auto& p : positions) p = size * Point(-p.y, p.x);
-      const auto outcome = KineticUntangling().repair(mesh, {.before = before});
+      const auto outcome = KineticUntangling().repair(mesh, Move({}, before));
       ASSERT_TRUE(outcome);
       const auto positions = plain.positions();
       std::copy(positions.begin(), positions.end(), mesh.positions().begin());
@@ -306,7 +306,7 @@ TEST(Kinetic, HasToKnowWhereVerticesCameFrom) {
   for (const std::size_t n : {std::size_t{0}, tangle.before.size() - 1}) {
     Mesh mesh = tangle.mesh;
     try {
-      (void)KineticUntangling().repair(mesh, {.before = std::span(tangle.before).first(n)});
+      (void)KineticUntangling().repair(mesh, Move({}, std::span(tangle.before).first(n)));
       ADD_FAILURE() << "did not throw";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(std::to_string(n) + " positions before the move"),

@@ -60,7 +60,7 @@ TEST(Lattice, TakesAVertexToEveryHalfCell) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Random random(seed);
     const Mesh grid = build_mesh(random_grid(4, 4, random));
-    for (int v = 0; v < grid.n_vertices(); ++v) {
+    for (const Vertex v : grid.vertices()) {
       for (int place = 0; !grid.is_constrained(v) && place < 49; ++place) {
         Mesh mesh = grid;
         mesh.positions()[v] = {1.0 + place % 7, 1.0 + place / 7};

@@ -11,13 +11,13 @@
 namespace kinemesh::test {
 namespace {
 
-bool may_move(const Mesh& mesh, int v) {
+bool may_move(const Mesh& mesh, Vertex v) {
   return mesh.user_vertex(v) != none && !mesh.is_constrained(v) && !mesh.is_fixed(v);
 }
 
 int count_moved(const Mesh& before, const Mesh& after) {
   int moved = 0;
-  for (int v = 0; v < before.n_vertices(); ++v) {
+  for (const Vertex v : before.vertices()) {
     if (before.position(v) == after.position(v)) continue;
     EXPECT_TRUE(may_move(before, v)) << v;
     ++moved;
@@ -39,7 +39,7 @@ void check(const Tangle& tangle, std::uint64_t seed, Tally& tally) {
   SCOPED_TRACE(tangle.about + " " + std::to_string(seed));
   Mesh mesh = tangle.mesh;
   VertexOptimization optimize;
-  const auto outcome = optimize.repair(mesh, {.allow_escaped = true});
+  const auto outcome = optimize.repair(mesh, RepairOptions{.allow_escaped = true});
   EXPECT_EQ(outcome.record.inverted, static_cast<int>(oracle::inverted(tangle.mesh).size()));
   EXPECT_EQ(outcome.record.degenerate, static_cast<int>(oracle::flat(tangle.mesh).size()));
   EXPECT_EQ(outcome.record.replaced, 0);
@@ -116,7 +116,7 @@ TEST(VertexOptimization, DoesNotDependOnWhatWasBefore) {
   VertexOptimization veteran;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Mesh a = random_tangle(seed).mesh, b = a;
-    const auto by_veteran = veteran.repair(a, {.allow_escaped = true});
+    const auto by_veteran = veteran.repair(a, RepairOptions{.allow_escaped = true});
     EXPECT_EQ(static_cast<bool>(by_veteran), static_cast<bool>(repair(b, true, "optimize")));
     EXPECT_EQ(snapshot_of(a), snapshot_of(b)) << seed;
   }

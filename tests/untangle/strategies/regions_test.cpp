@@ -131,7 +131,7 @@ TEST(GlobalUntangling, KeepsNothingBetweenMeshes) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     Mesh first = random_tangle(seed).mesh, again = first;
     const bool allow = seed % 3 != 0;
-    const auto kept = strategy->repair(first, {.allow_escaped = allow});
+    const auto kept = strategy->repair(first, RepairOptions{.allow_escaped = allow});
     const auto fresh = repair(again, allow);
     EXPECT_EQ(static_cast<bool>(kept), static_cast<bool>(fresh));
     EXPECT_TRUE(snapshot_of(first) == snapshot_of(again)) << seed;
@@ -192,7 +192,7 @@ TEST(Strategies, AreFoundByNameOnly) {
     make_strategy("Global");
     ADD_FAILURE();
   } catch (const InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("'Global'"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("\"Global\""), std::string::npos);
     EXPECT_NE(std::string(e.what()).find("global"), std::string::npos);
   }
   EXPECT_THROW(register_strategy({"global", "again", [] { return make_strategy("remesh"); }}), InputError);

@@ -55,7 +55,7 @@ TEST(Detect, CountsTheFacesAVertexIsPushedThrough) {
 TEST(Detect, InvertsExactlyTheSpokeAWheelsHubLeavesThrough) {
   for (int n = 3; n < 20; ++n) {
     Mesh mesh = build_mesh(wheel(n));
-    for (int side = 0; side < n; ++side) {
+    for (Side side{0}; side < n; ++side) {
       const double angle = std::numbers::pi * (2 * side + 1) / n, apothem = std::cos(std::numbers::pi / n);
       place(mesh, n, 1.01 * apothem * Point(std::cos(angle), std::sin(angle)));
       EXPECT_THAT(user_faces(mesh, detect(mesh).inverted), ElementsAre(side)) << n << " spokes";
@@ -127,16 +127,17 @@ int count_upright(FaceMinima minima, const Mesh& mesh, const MovedBlocks& moved)
   return upright;
 }
 
-bool is_upright(const Mesh& mesh, int a, int b, int c) {
+bool is_upright(const Mesh& mesh, Vertex a, Vertex b, Vertex c) {
   return orientation(mesh.position(a), mesh.position(b), mesh.position(c)) == Orientation::CounterClockwise;
 }
 
 // Edges whose flip leaves upright faces.
 void flip_some(Mesh& mesh, Random& random, FaceMinima& minima) {
   for (int i = 0; i < 300; ++i) {
-    const int edge = random_edge(mesh, random);
+    const Side edge = random_edge(mesh, random);
     if (!mesh.is_flippable(edge)) continue;
-    const int a = mesh.from(edge), b = mesh.to(edge), c = mesh.apex(edge), d = mesh.apex(mesh.opposite(edge));
+    const Vertex a = mesh.from(edge), b = mesh.to(edge);
+    const Vertex c = mesh.apex(edge), d = mesh.apex(mesh.opposite(edge));
     if (!is_upright(mesh, d, b, c) || !is_upright(mesh, c, a, d)) continue;
     minima.outdate(std::array{Mesh::face_of(edge), mesh.face_across(edge)});
     mesh.flip(edge);
@@ -154,7 +155,7 @@ TEST(Detect, LeavesAloneWhatLiesStill) {
   for (int round = 0; round < 300; ++round) {
     const std::vector<Point> before(mesh.positions().begin(), mesh.positions().end());
     const int first = random.below(mesh.n_vertices());
-    for (int v = first; v < std::min(first + 5, mesh.n_vertices()); ++v)
+    for (Vertex v{first}; v < std::min(first + 5, mesh.n_vertices()); ++v)
       mesh.positions()[v] += snapped({random.between(-0.05, 0.05), random.between(-0.05, 0.05)});
     moved.find(before, mesh.positions());
     left_alone += count_upright(minima, mesh, moved);
@@ -189,8 +190,8 @@ TEST(InvertedComponents, JoinAcrossEdgesOnly) {
   Mesh mesh = build_mesh(four_triangles());
   // Faces 0 and 2 touch in vertex 4 only.
   const auto faces = [&](std::vector<int> users) {
-    std::vector<int> found;
-    for (int f = 0; f < mesh.n_faces(); ++f) {
+    std::vector<Face> found;
+    for (const Face f : mesh.faces()) {
       if (std::count(users.begin(), users.end(), mesh.user_face(f))) found.push_back(f);
     }
     return found;

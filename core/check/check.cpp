@@ -1,4 +1,4 @@
-#include "sim/cli/check_report.h"
+#include "kinemesh/check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,14 @@
 #include <span>
 #include <utility>
 
+#include "core/check/adjacency.h"
 #include "core/mesh/sides.h"
 #include "kinemesh/build.h"
 #include "kinemesh/measure.h"
 #include "kinemesh/predicates.h"
 #include "kinemesh/validate.h"
-#include "sim/cli/adjacency.h"
 
-namespace kinemesh::cli {
+namespace kinemesh {
 namespace {
 
 std::vector<Orientation> orientations(const MeshData& data) {
@@ -74,8 +74,8 @@ Defect bad_face(const MeshData& data, int face, DefectKind kind) {
   const Triangle& t = data.triangles[face];
   Defect defect;
   defect.kind = kind;
-  defect.faces = {face};
-  defect.vertices = {t[0], t[1], t[2]};
+  defect.faces = {UserFace(face)};
+  defect.vertices = {UserVertex(t[0]), UserVertex(t[1]), UserVertex(t[2])};
   defect.where = (data.points[t[0]] + data.points[t[1]] + data.points[t[2]]) / 3.0;
   return defect;
 }
@@ -93,7 +93,7 @@ void name_bad_faces(const MeshData& data, const std::vector<Orientation>& signs,
 Defect missing_edge(const MeshData& data, const Marker& marker, const Edge& edge) {
   Defect defect;
   defect.kind = DefectKind::MissingEdge;
-  defect.edges = {edge};
+  defect.edges = {{UserVertex(edge[0]), UserVertex(edge[1])}};
   defect.where = (data.points[edge[0]] + data.points[edge[1]]) / 2.0;
   defect.detail = "marker \"" + marker.name + "\" names it, but no face has it";
   return defect;
@@ -138,7 +138,7 @@ FaceCount count_bad_faces(const MeshData& data) {
   return result;
 }
 
-CheckReport check(const MeshData& data) {
+CheckReport check_mesh(const MeshData& data) {
   CheckReport report;
   const std::vector<Orientation> signs = orientations(data);
   count(data, signs, report);
@@ -153,4 +153,4 @@ CheckReport check(const MeshData& data) {
   return report;
 }
 
-}  // namespace kinemesh::cli
+}  // namespace kinemesh

@@ -9,6 +9,7 @@
 #include "kinemesh/scenario.h"
 #include "kinemesh/stepper.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 struct SetUp {
@@ -28,3 +29,4 @@ SetUp set_up(const Scenario& scenario);
 SetUp set_up(const Scenario& scenario, Mesh mesh);
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -8,7 +8,8 @@
 #include "kinemesh/defect.h"
 #include "kinemesh/mesh_data.h"
 
-namespace kinemesh::cli {
+#pragma GCC visibility push(default)
+namespace kinemesh {
 
 struct MarkerCount {
   std::string name;
@@ -36,7 +37,7 @@ inline constexpr int culprits_per_kind = 5;
 
 // Exact but for the two extremes. Pre: consistent winding, as read_mesh leaves it. O(n log n). Throws
 // InputError for no faces at all.
-CheckReport check(const MeshData& data);
+CheckReport check_mesh(const MeshData& data);
 
 // Only the counts of faces that point the wrong way: what a repair report gives before and after.
 struct FaceCount {
@@ -45,4 +46,5 @@ struct FaceCount {
 };
 FaceCount count_bad_faces(const MeshData& data);
 
-}  // namespace kinemesh::cli
+}  // namespace kinemesh
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 
 #include "kinemesh/types.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // Places are parameters: lengths from the start. Beyond its ends an open line goes on straight.
@@ -35,3 +36,4 @@ class Polyline {
 };
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -1,11 +1,11 @@
-#include "sim/cli/adjacency.h"
+#include "core/check/adjacency.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/mesh/sides.h"
 
-namespace kinemesh::cli {
+namespace kinemesh {
 namespace {
 
 int next_in_face(int side) {
@@ -78,4 +78,4 @@ std::vector<int> missing_edges(std::span<const Triangle> triangles, std::span<co
   return result;
 }
 
-}  // namespace kinemesh::cli
+}  // namespace kinemesh

@@ -10,6 +10,7 @@
 #include "kinemesh/error.h"
 #include "kinemesh/types.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // An integer stands for a number wherever a number is expected.
@@ -29,3 +30,4 @@ class ParameterError : public InputError {
 };
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

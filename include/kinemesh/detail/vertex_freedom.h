@@ -4,9 +4,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/base/polyline.h"
+#include "kinemesh/detail/polyline.h"
 #include "kinemesh/types.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // By the mesh's numbers. Without it, vertices on no constrained edge that are not fixed move freely, and all
@@ -26,3 +27,4 @@ struct VertexFreedom {
 };
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 
 #include "kinemesh/types.h"
 
+#pragma GCC visibility push(default)
 namespace kinemesh {
 
 // Open addressing, linear probing; at most half full, so that a search ends soon.
@@ -18,7 +19,7 @@ class SideNumbers {
     entries_.assign(size, {});
   }
 
-  int find(int side) const noexcept {  // or none
+  int find(Side side) const noexcept {  // or none
     if (entries_.empty()) return none;
     std::size_t i = home(side);
     while (entries_[i].side != side && entries_[i].side != none) i = following(i);
@@ -26,14 +27,14 @@ class SideNumbers {
   }
 
   // Pre: the side is not in it, and there is room.
-  void insert(int side, int number) noexcept {
+  void insert(Side side, int number) noexcept {
     std::size_t i = home(side);
     while (entries_[i].side != none) i = following(i);
     entries_[i] = {side, number};
   }
 
   // Closes the gap, so that what was found before still is. Does nothing for a side that is not in it.
-  void erase(int side) noexcept {
+  void erase(Side side) noexcept {
     std::size_t gap = home(side);
     while (entries_[gap].side != side) {
       if (entries_[gap].side == none) return;
@@ -49,10 +50,11 @@ class SideNumbers {
 
  private:
   struct Entry {
-    int side = none, number = none;
+    Side side;
+    int number = none;
   };
 
-  std::size_t home(int side) const {
+  std::size_t home(Side side) const {
     return (static_cast<std::uint64_t>(side) * 0x9E3779B97F4A7C15u >> 32) & (entries_.size() - 1);
   }
   std::size_t following(std::size_t i) const { return (i + 1) & (entries_.size() - 1); }
@@ -62,3 +64,4 @@ class SideNumbers {
 };
 
 }  // namespace kinemesh
+#pragma GCC visibility pop

@@ -7,19 +7,12 @@
 
 #include "kinemesh/field.h"
 #include "kinemesh/mesh.h"
-#include "motion/fields/parameters.h"
-#include "motion/fields/pose.h"
-#include "motion/integrator.h"
+#include "kinemesh/motion.h"
 
 namespace kinemesh {
 
-struct BodySpec {
-  std::vector<std::string> on;  // "marker:NAME", "label:N" (a solid part with all its vertices); one at least
-  std::vector<AnyField> motion;  // no noise; empty: it stays where it is
-};
-
 // x(t) = c + R(angle)(X - c) + shift + displacements, a function of the initial position X and the time
-// alone: what the fields say at t, less what they say at 0. Fields with a pose (motion/fields/pose.h) add up
+// alone: what the fields say at t, less what they say at 0. Fields with a pose (kinemesh/field.h) add up
 // to angle and shift; they turn about one centre, which travels with the body. Rounded once, from more digits
 // than a double has, so that a border is exact after any number of steps, and the same bits whatever their
 // length. Other velocity fields are integrated at its vertices, and then "exact" does not apply.
@@ -32,7 +25,7 @@ class Body {
 
   const std::string& name() const { return name_; }                  // its parts; several in quotes
   std::span<const std::string> markers() const { return markers_; }  // that it names
-  std::span<const int> vertices() const { return vertices_; }        // the mesh's numbers, ascending
+  std::span<const Vertex> vertices() const { return vertices_; }     // the mesh's numbers, ascending
   bool is_exact() const { return velocities_.empty(); }
 
   // Where its vertices go in a step from t0 to t1, dt long: x1 of each is written, x0 read where it is not
@@ -55,7 +48,7 @@ class Body {
 
   std::string name_;
   std::vector<std::string> markers_;
-  std::vector<int> vertices_;
+  std::vector<Vertex> vertices_;
   Point center_{0.0, 0.0};
   std::vector<std::shared_ptr<const RigidPath>> paths_;
   std::vector<std::shared_ptr<const DisplacementField>> displacements_;

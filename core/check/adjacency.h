@@ -6,7 +6,7 @@
 
 #include "kinemesh/types.h"
 
-namespace kinemesh::cli {
+namespace kinemesh {
 
 // Both take `opposite` as pair_sides (core/mesh/sides.h) gives it: side 3 f + k runs from corner k of face f
 // to the next.
@@ -21,4 +21,4 @@ int count_border_loops(std::span<const int> opposite);
 // Which of `edges` no triangle has, ascending. O(n log m) for n triangles and m edges.
 std::vector<int> missing_edges(std::span<const Triangle> triangles, std::span<const Edge> edges);
 
-}  // namespace kinemesh::cli
+}  // namespace kinemesh
