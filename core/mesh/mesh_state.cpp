@@ -247,7 +247,7 @@ void MeshParts::connect() {
 
 void MeshParts::check_frame() const {
   auto corners = mesh_.frame_;
-  std::ranges::rotate(corners, std::ranges::min_element(corners));
+  std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
   require(corners == mesh_.hull_, "a frame that is not the border of its mesh");
 }
 
