@@ -67,7 +67,7 @@ class Contestant {
     Mesh mesh = moved(move_);
     minima_ = minima_before_;
     const Stopwatch stepping;
-    Move move({}, move_.mesh.positions());
+    kinemesh::Move move({}, move_.mesh.positions());
     move.know(&minima_, &moved_);
     const auto outcome = strategy_->repair(mesh, move);
     require_valid(outcome);

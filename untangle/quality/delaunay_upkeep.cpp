@@ -22,13 +22,9 @@ bool is_locally_delaunay(const Mesh& mesh, Side side) {
   return in_circle(a, b, c, mesh.position(mesh.apex(mesh.opposite(side)))) != InCircle::Inside;
 }
 
-// Of an edge of a changed face; not if it is proved to be locally Delaunay. Forgets what is known of it, so
-// that a second call, where memory was short, is true once more only for an edge that has not been judged.
-bool needs_judgement(float& left, float& right) {
-  if (std::isnan(left) && std::isnan(right)) return false;
-  const bool is_proved = left + right >= 0.0f;
-  left = right = unknown;
-  return !is_proved;
+// Of an edge of a changed face; not if it is proved to be locally Delaunay.
+bool needs_judgement(float left, float right) {
+  return !(std::isnan(left) && std::isnan(right)) && !(left + right >= 0.0f);
 }
 
 // Calls f(i) for all of them in all threads; where there is no memory left to start them, in this one. So f
@@ -91,6 +87,7 @@ void DelaunayUpkeep::find_wrong_edges(const Mesh& mesh) {
     for (int k = 0; k < 3; ++k)
       if ((is_wrong_[f] & 1 << k) != 0) wrong_.push_back(Mesh::side(f, k));
     is_wrong_[f] = 0;
+    if (has_changed_[f]) cotangent_[f] = {unknown, unknown, unknown};
   }
 }
 
@@ -99,14 +96,23 @@ void DelaunayUpkeep::bound_angles(const Mesh& mesh, Face face) {
   cotangent_[face] = cotangent_bounds(mesh.corners(face));
 }
 
+// Asks for what lies across from a face that comes a little after this one.
+void DelaunayUpkeep::fetch_across(const Mesh& mesh, Face face) const {
+  constexpr int ahead = 16;
+  if (face + ahead >= mesh.n_faces()) return;
+  for (const Side side : Mesh::sides(Face(face + ahead)))
+    if (const Face across = mesh.face_across(side); across > face) __builtin_prefetch(&cotangent_[across]);
+}
+
 // Bit k: side k is the lower one of its edge, which has been judged and is wrong.
-char DelaunayUpkeep::wrong_sides(const Mesh& mesh, Face face) {
+char DelaunayUpkeep::wrong_sides(const Mesh& mesh, Face face) const {
+  fetch_across(mesh, face);
   int wrong = 0;
   for (const Side side : Mesh::sides(face)) {
     const Side across = mesh.opposite(side);
     if (across < side) continue;  // the hull is always right
-    float& left = cotangent_[face][Mesh::corner_of(side)];
-    float& right = cotangent_[Mesh::face_of(across)][Mesh::corner_of(across)];
+    const float left = cotangent_[face][Mesh::corner_of(side)];
+    const float right = cotangent_[Mesh::face_of(across)][Mesh::corner_of(across)];
     if (needs_judgement(left, right) && !is_locally_delaunay(mesh, side)) wrong |= 1 << Mesh::corner_of(side);
   }
   return static_cast<char>(wrong);
