@@ -1,8 +1,9 @@
 #include "c/arguments.h"
 
-#include <charconv>
 #include <cmath>
 #include <type_traits>
+
+#include "core/base/shortest_text.h"
 
 namespace kinemesh {
 namespace {
@@ -14,11 +15,6 @@ std::string is(const char* name, const std::string& value) {
 }
 
 }  // namespace
-
-std::string text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
 
 std::size_t count(std::int32_t n, const char* name) {
   if (n < 0) throw InputError(is(name, std::to_string(n)) + "at least 0 expected");
@@ -34,7 +30,7 @@ std::size_t index(std::int32_t i, std::size_t n, const char* name) {
 
 double not_negative(double value, const char* name) {
   if (!std::isfinite(value) || value < 0.0)
-    throw InputError(is(name, text(value)) + "a finite number, not negative, expected");
+    throw InputError(is(name, shortest_text(value)) + "a finite number, not negative, expected");
   return value;
 }
 

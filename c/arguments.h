@@ -32,9 +32,6 @@ std::span<const T> array(const T* first, std::size_t n, const char* name) {
   return {n > 0 ? required(first, name) : nullptr, n};
 }
 
-// The shortest that reads back as the same number.
-std::string text(double value);
-
 // A number of things, at least 0.
 std::size_t count(std::int32_t n, const char* name);
 

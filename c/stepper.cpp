@@ -125,10 +125,7 @@ kinemesh_region c_region(const RegionRecord& region) {
 
 [[noreturn]] void refuse(const StepOutcome& outcome) {
   if (outcome.defect) kinemesh::refuse(*outcome.defect);
-  throw Failure(KINEMESH_REGIONS_TOO_LARGE,
-                "the step's regions hold a share of " + text(outcome.too_large->share) +
-                    " of all faces, at most options->max_region_share = " + text(outcome.too_large->limit) +
-                    " expected");
+  throw Failure(KINEMESH_REGIONS_TOO_LARGE, outcome.message());
 }
 
 // step_to(stepper, end time), dt after all steps before. The lengths of steps are added up as if without

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/ascending.h"
 #include "core/mesh/sides.h"
 
 namespace kinemesh {
@@ -34,10 +35,6 @@ void close_part(std::span<const int> opposite, int first, std::vector<bool>& ope
   }
 }
 
-Edge sorted(const Edge& e) {
-  return e[0] < e[1] ? e : Edge{e[1], e[0]};
-}
-
 }  // namespace
 
 int count_parts(std::span<const int> opposite, const std::vector<bool>& in) {
@@ -64,11 +61,11 @@ int count_border_loops(std::span<const int> opposite) {
 
 std::vector<int> missing_edges(std::span<const Triangle> triangles, std::span<const Edge> edges) {
   std::vector<std::pair<Edge, int>> wanted;
-  for (int i = 0; i < static_cast<int>(edges.size()); ++i) wanted.emplace_back(sorted(edges[i]), i);
+  for (int i = 0; i < static_cast<int>(edges.size()); ++i) wanted.emplace_back(ascending(edges[i]), i);
   std::sort(wanted.begin(), wanted.end());
   std::vector<bool> found(edges.size(), false);
   for (int side = 0; side < 3 * static_cast<int>(triangles.size()); ++side) {
-    const Edge edge = sorted(ends_of_side(triangles, side));
+    const Edge edge = ascending(ends_of_side(triangles, side));
     auto it = std::lower_bound(wanted.begin(), wanted.end(), std::pair(edge, 0));
     for (; it != wanted.end() && it->first == edge; ++it) found[it->second] = true;
   }

@@ -1,11 +1,11 @@
 #include "core/io/assembler.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 
+#include "core/base/shortest_text.h"
 #include "core/io/scanner.h"
 #include "kinemesh/orient.h"
 
@@ -14,11 +14,6 @@ namespace {
 
 double twice_area(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-std::string shortest(double x) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
 
 bool is_control(char c) {
@@ -36,7 +31,7 @@ void check_name(std::string_view name) {
 
 void Assembler::add_point(double x, double y, double z, int line) {
   if (z != 0.0) {
-    fail(line, "vertex " + std::to_string(mesh_.points.size()) + " has z = " + shortest(z) +
+    fail(line, "vertex " + std::to_string(mesh_.points.size()) + " has z = " + shortest_text(z) +
                    ", expected 0: only meshes in the plane are read");
   }
   mesh_.points.emplace_back(x, y);

@@ -23,7 +23,7 @@ inline bool is_movable(const Mesh& mesh, Vertex v) {
 inline Side start_of_fan(const Mesh& mesh, Vertex vertex) {
   const Side some = mesh.side_from(vertex);
   Side start = some;
-  for (Side side{some};;) {
+  for (Side side = some;;) {
     const Side across = mesh.opposite(side);
     if (across == none) return side;
     side = Mesh::next(across);

@@ -11,7 +11,7 @@ std::vector<Face> Mesh::faces_in_user_order() const {
   // Numbers of padding faces lie behind the user's unless faces have changed sides; bucket, then close the
   // gaps.
   std::vector<Face> by_number(triangles_.size());
-  for (Face f{0}; f < n_faces(); ++f) {
+  for (const Face f : faces()) {
     if (!is_padding(f)) by_number[user_face_[f]] = f;
   }
   std::erase(by_number, none);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/ascending.h"
 #include "core/base/parallel.h"
 #include "core/mesh/sides.h"
 #include "kinemesh/validate.h"
@@ -26,11 +27,6 @@ bool are_between(std::span<const int> numbers, int first, int end) {
 
 Side renumbered(Side side, std::span<const int> faces) {
   return Mesh::side(Face(faces[Mesh::face_of(side)]), Mesh::corner_of(side));
-}
-
-Edge sorted(Edge ends) {
-  if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
-  return ends;
 }
 
 void turn(std::vector<ListedConstraint>& constraints, std::span<const int> turned) {
@@ -99,7 +95,7 @@ MeshOrder MeshParts::order_of(const Mesh& mesh) {
   const auto numbers = inverse(order.vertices);
   const auto ends = [&](int i) {
     const Constraint& c = mesh.constraints()[i];
-    return sorted({numbers[c.from], numbers[c.to]});
+    return ascending(Edge{numbers[c.from], numbers[c.to]});
   };
   order.constraints.resize(mesh.constraints().size());
   std::iota(order.constraints.begin(), order.constraints.end(), 0);
@@ -192,12 +188,12 @@ void MeshParts::check_constraints() const {
 // Their edges are the user's, and constrained.
 void MeshParts::check_markers() const {
   std::vector<Edge> constrained;
-  for (const ListedConstraint& c : base_.constraints) constrained.push_back(sorted({c.from, c.to}));
+  for (const ListedConstraint& c : base_.constraints) constrained.push_back(ascending(Edge{c.from, c.to}));
   std::ranges::sort(constrained);
   for (const Marker& marker : base_.markers)
     for (const Edge& edge : marker.edges)
       require(
-          are_between(edge, 0, n_user_vertices()) && std::ranges::binary_search(constrained, sorted(edge)),
+          are_between(edge, 0, n_user_vertices()) && std::ranges::binary_search(constrained, ascending(edge)),
           "a marker of an edge that is not constrained");
 }
 

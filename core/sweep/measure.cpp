@@ -16,7 +16,7 @@ using Sums = std::array<double, 2>;
 Sums areas(const Mesh& mesh, int begin, int end) {
   Sums sums{};
   int n = 0;
-  for (Face f{begin}; f < end; ++f)
+  for (Face f(begin); f < end; ++f)
     if (!mesh.is_padding(f)) sums[n++ % 2] += 0.5 * twice_area(mesh.corners(f));
   return sums;
 }

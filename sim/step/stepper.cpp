@@ -1,12 +1,12 @@
 #include "kinemesh/stepper.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/base/shortest_text.h"
 #include "core/base/stopwatch.h"
 #include "core/mesh/around.h"
 #include "core/mesh/frame.h"
@@ -23,17 +23,11 @@
 namespace kinemesh {
 namespace {
 
-// Shortest text that reads back as the same number.
-std::string exact_text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
 // Every defect tells the time; what moves vertices, but not the frame, out of this world tells it itself.
 void add_time(Defect& defect, double time) {
   if (defect.kind == DefectKind::NonFinitePosition && defect.vertices.front() != none) return;
   if (!defect.detail.empty()) defect.detail += ", ";
-  defect.detail += "at time " + exact_text(time);
+  defect.detail += "at time " + shortest_text(time);
 }
 
 // describe(vertex) names what moved it.
@@ -368,7 +362,7 @@ StepOutcome Stepper::Impl::step_by(std::span<const Point> positions, double end_
     for (const Vertex v : mesh_.vertices())
       if (const UserVertex user = mesh_.user_vertex(v); user != none) next[v] = positions[user];
     return non_finite_defect(
-        mesh_, next, [&](Vertex) { return "in the positions given for time " + exact_text(end_time); });
+        mesh_, next, [&](Vertex) { return "in the positions given for time " + shortest_text(end_time); });
   });
 }
 
@@ -396,12 +390,12 @@ std::optional<Defect> Stepper::Impl::follow(double end_time, std::span<Point> ne
   interior_ms_ = clock.milliseconds();
   if (!solution.converged)
     throw InputError("the interior does not follow the border in step " + std::to_string(step_ + 1) +
-                     ", at time " + exact_text(end_time) + ": no solution after " +
+                     ", at time " + shortest_text(end_time) + ": no solution after " +
                      std::to_string(solution.iterations) + " iterations, relative residual " +
-                     exact_text(solution.residual));
+                     shortest_text(solution.residual));
   has_followed_ = true;
   return non_finite_defect(mesh_, next,
-                           [&](Vertex) { return "following the border to time " + exact_text(end_time); });
+                           [&](Vertex) { return "following the border to time " + shortest_text(end_time); });
 }
 
 Following& Stepper::Impl::following(const InteriorOptions& options) {
@@ -436,7 +430,7 @@ StepOutcome Stepper::Impl::step_border_by(std::span<const UserVertex> vertices,
     std::ranges::copy(mesh_.positions(), next.begin());
     for (std::size_t i = 0; i < vertices.size(); ++i) next[mesh_.vertex_of_user(vertices[i])] = positions[i];
     auto defect = non_finite_defect(
-        mesh_, next, [&](Vertex) { return "in the positions given for time " + exact_text(end_time); });
+        mesh_, next, [&](Vertex) { return "in the positions given for time " + shortest_text(end_time); });
     if (defect) return defect;
     return follow(end_time, next, [&] { return following(interior_).follow(mesh_, roles, dt, next); });
   });
@@ -523,8 +517,8 @@ StepOutcome Stepper::repair(double dt) {
 std::string StepOutcome::message() const {
   if (defect) return defect->message();
   if (!too_large) return {};
-  return "regions of " + exact_text(too_large->share) + " of all faces, at most " +
-         exact_text(too_large->limit) + " expected (max_region_share)";
+  return "regions of " + shortest_text(too_large->share) + " of all faces, at most " +
+         shortest_text(too_large->limit) + " expected (max_region_share)";
 }
 
 }  // namespace kinemesh

@@ -4,15 +4,12 @@
 #include <map>
 #include <set>
 
+#include "core/base/ascending.h"
 #include "core/mesh/around.h"
 #include "kinemesh/predicates.h"
 
 namespace kinemesh {
 namespace {
-
-MeshEdge ordered(Vertex a, Vertex b) {
-  return {std::min(a, b), std::max(a, b)};
-}
 
 class EdgeCount {
  public:
@@ -20,7 +17,7 @@ class EdgeCount {
       : mesh_(mesh), sets_(sets), set_(set), faces_(faces) {
     for (int t = 0; t < faces.size(); ++t) {
       for (int k = 0; k < 3; ++k) {
-        const auto edge = ordered(corner(t, k), corner(t, k + 1));
+        const auto edge = ascending(MeshEdge{corner(t, k), corner(t, k + 1)});
         if (faces.neighbours[t][k] < 0)
           count_kept_edges(corner(t, k));
         else if (t < faces.neighbours[t][k])
@@ -48,7 +45,7 @@ class EdgeCount {
   Vertex corner(int t, int k) const { return faces_.triangles[t][k % 3]; }
   bool is_doubled(int t, int k) const { return count(corner(t, k), corner(t, k + 1)) > 1; }
   int count(Vertex a, Vertex b) const {
-    const auto found = count_.find(ordered(a, b));
+    const auto found = count_.find(ascending(MeshEdge{a, b}));
     return found == count_.end() ? 0 : found->second;
   }
 
@@ -72,8 +69,8 @@ class EdgeCount {
     const Vertex a = corner(t, k), b = corner(t, k + 1), c = corner(t, k + 2), d = corner(u, j + 2);
     if (c == d || count(c, d) > 0) return false;
     if (!is_upright(c, a, d) || !is_upright(d, b, c)) return false;
-    --count_[ordered(a, b)];
-    ++count_[ordered(c, d)];
+    --count_[ascending(MeshEdge{a, b})];
+    ++count_[ascending(MeshEdge{c, d})];
     const auto bc = take(t, k + 1), ca = take(t, k + 2), ad = take(u, j + 1), db = take(u, j + 2);
     put(t, {c, a, d}, {ca, ad, {u, none}});
     put(u, {d, b, c}, {db, bc, {t, none}});

@@ -4,20 +4,13 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "core/base/ascending.h"
 #include "core/base/sort_distinct.h"
 #include "core/mesh/frame.h"
 #include "core/mesh/winding.h"
 #include "kinemesh/predicates.h"
 
 namespace kinemesh {
-namespace {
-
-Edge sorted(const Edge& edge) {
-  return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
-}
-
-}  // namespace
-
 RegionMesher::Result RegionMesher::run(const Mesh& mesh, const Hole& hole) {
   if (small_.run(mesh, hole)) {
     std::swap(new_faces_, small_.new_faces());
@@ -141,11 +134,11 @@ bool RegionMesher::find_lost_vertex() {
 bool RegionMesher::find_taken_edge() {
   std::vector<Edge> taken;
   for (int i = 0; i < border_edges(); ++i) {
-    if (mesh_->face_across(hole_->border[i].side) == none) taken.push_back(sorted(edges_[i]));
+    if (mesh_->face_across(hole_->border[i].side) == none) taken.push_back(ascending(edges_[i]));
   }
   std::sort(taken.begin(), taken.end());
   for (int i = border_edges(); i < static_cast<int>(edges_.size()); ++i) {
-    if (!std::binary_search(taken.begin(), taken.end(), sorted(edges_[i]))) continue;
+    if (!std::binary_search(taken.begin(), taken.end(), ascending(edges_[i]))) continue;
     defect_ = Defect{.kind = DefectKind::MissingEdge,
                      .edges = {user_edge(i)},
                      .where = points_[edges_[i][0]],

@@ -147,7 +147,7 @@ void AngleUpkeep::find_bad(const Mesh& mesh, FaceMinima& minima) {
   if (!(minima.update(mesh).tangent < wanted_ + rounding)) return;
   for (int begin = 0, n = mesh.n_faces(); begin < n; begin += stretch_faces) {
     if (!(minima.of_stretch(begin / stretch_faces).tangent < wanted_ + rounding)) continue;
-    for (Face face{begin}; face < std::min(begin + stretch_faces, n); ++face)
+    for (Face face(begin); face < std::min(begin + stretch_faces, n); ++face)
       if (is_bad(mesh, face)) bad_.push_back(face);
   }
 }

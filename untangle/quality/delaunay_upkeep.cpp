@@ -96,17 +96,8 @@ void DelaunayUpkeep::bound_angles(const Mesh& mesh, Face face) {
   cotangent_[face] = cotangent_bounds(mesh.corners(face));
 }
 
-// Asks for what lies across from a face that comes a little after this one.
-void DelaunayUpkeep::fetch_across(const Mesh& mesh, Face face) const {
-  constexpr int ahead = 16;
-  if (face + ahead >= mesh.n_faces()) return;
-  for (const Side side : Mesh::sides(Face(face + ahead)))
-    if (const Face across = mesh.face_across(side); across > face) __builtin_prefetch(&cotangent_[across]);
-}
-
 // Bit k: side k is the lower one of its edge, which has been judged and is wrong.
 char DelaunayUpkeep::wrong_sides(const Mesh& mesh, Face face) const {
-  fetch_across(mesh, face);
   int wrong = 0;
   for (const Side side : Mesh::sides(face)) {
     const Side across = mesh.opposite(side);

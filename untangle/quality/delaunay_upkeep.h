@@ -26,7 +26,6 @@ class DelaunayUpkeep : public QualityPass {
                           std::span<const RegionRecord> replaced);
   void find_wrong_edges(const Mesh& mesh);
   void bound_angles(const Mesh& mesh, Face face);
-  void fetch_across(const Mesh& mesh, Face face) const;
   char wrong_sides(const Mesh& mesh, Face face) const;
 
   DelaunayFlipping flipping_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/base/ascending.h"
 #include "core/base/parallel.h"
 #include "core/mesh/around.h"
 #include "core/sweep/face_sweep.h"
@@ -22,7 +23,7 @@ std::vector<Face> faces_that_may_collapse(const Mesh& mesh, std::span<const Poin
   const auto triangles = mesh.triangles();
   std::vector<std::vector<Face>> found(n_parts(mesh.n_faces(), grain::items));
   parallel_parts(mesh.n_faces(), grain::items, [&](int part, int begin, int end) {
-    for (Face f{begin}; f < end; ++f) {
+    for (Face f(begin); f < end; ++f) {
       fetch_ahead(triangles, before, f);
       fetch_ahead(triangles, mesh.positions(), f);
       if (may_collapse(triangles[f], before.data(), mesh.positions().data())) found[part].push_back(f);
@@ -40,10 +41,6 @@ struct Quadrilateral {
 
 Quadrilateral around(const Mesh& mesh, Side edge) {
   return {mesh.from(edge), mesh.to(edge), mesh.apex(edge), mesh.apex(mesh.opposite(edge))};
-}
-
-std::array<Vertex, 2> sorted(Vertex a, Vertex b) {
-  return {std::min(a, b), std::max(a, b)};
 }
 
 // While something is tangled an edge may be there already.
@@ -137,7 +134,8 @@ bool KineticFlips::flip_on_line(Face face) {
   const Side longest = Mesh::side(face, (inner + 1) % 3);
   if (!can_be_flipped(mesh_, longest)) return false;
   const auto [a, b, c, d] = around(mesh_, longest);
-  if (!is_flat({a, b, c}) || !is_flat({b, a, d}) || !gone_.insert(sorted(a, b)).second) return false;
+  if (!is_flat({a, b, c}) || !is_flat({b, a, d}) || !gone_.insert(ascending(MeshEdge{a, b})).second)
+    return false;
   flip(longest);
   return true;
 }
@@ -155,7 +153,7 @@ bool KineticFlips::flip_beside_meeting(Face face) {
       const auto [a, b, c, d] = around(mesh_, side);
       const bool starts_there = a == u || a == v;
       if (!is_upright(starts_there ? MeshTriangle{d, b, c} : MeshTriangle{c, a, d})) continue;
-      if (!gone_.insert(sorted(a, b)).second) continue;
+      if (!gone_.insert(ascending(MeshEdge{a, b})).second) continue;
       flip(side);
       return true;
     }

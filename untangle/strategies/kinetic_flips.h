@@ -78,8 +78,8 @@ class KineticFlips {
   std::priority_queue<Event, std::vector<Event>, Later> events_;
   CollapseTime now_ = CollapseTime::end();
   bool is_at_end_ = false;
-  std::vector<Face> doubtful_;            // faces that may not be upright at this instant
-  std::set<std::array<Vertex, 2>> gone_;  // ends of edges on lines that were flipped at this instant
+  std::vector<Face> doubtful_;  // faces that may not be upright at this instant
+  std::set<MeshEdge> gone_;     // ends of edges on lines that were flipped at this instant
   KineticCounts counts_;
 };
 
